@@ -1,0 +1,82 @@
+"""Command line: separates sub-commands and flags from overrides, and says how it ended."""
+
+import sys
+
+from sphstudy.config import ConfigurationError
+
+USAGE = """\
+sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids and fracture
+
+  sphstudy h=1.5 n=40                              one run (scene=mode1 method=thesis by default)
+  sphstudy -m h=1.3,1.5,1.7,1.9 n=40,50,60         a sweep: every combination, in parallel
+  sphstudy -m scene=plate h=1.5,1.7 n=9,15,21      the same in another scene
+  sphstudy status                                  what the results folder holds, run by run
+  sphstudy list                                    scenes, methods, solvers, metrics
+  sphstudy describe scene plate                    every setting of one of them: value, unit, meaning
+
+settings (key=value, before or after -m; several values with commas make a sweep)
+  scene=NAME method=NAME solve=NAME                what, how discretised, how solved
+  h=1.5 n=40                                       relative smoothing radius; resolution
+  scene.E=2e6  solve.courant=0.4  record.times=[1.5]   anything that `describe` shows
+  results=FOLDER                                   where records go (default: results)
+  hydra/launcher=joblib hydra.launcher.n_jobs=4    how many runs at once (default: one per core)
+
+flags
+  -m, --multirun   run every combination of the values given
+  -f, --force      run again what is already there
+  -h, --help       this text            --version   the version
+
+A run that is already in the results folder is not run again. Each run leaves one netCDF file in
+results/runs, a sweep one labelled dataset in results/sweeps.
+Exit status: 0 all points done (a diverged point is a result), 1 a point failed, 2 wrong input,
+130 interrupted.
+"""
+
+_FLAGS = {"-m": "sweep", "--multirun": "sweep", "-f": "force", "--force": "force"}
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Runs the program; returns its exit status."""
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        return _command(arguments)
+    except ConfigurationError as error:
+        for complaint in error.complaints:
+            print(f"sphstudy: {complaint}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("sphstudy: interrupted; finished runs are kept", file=sys.stderr)
+        return 130
+
+
+def _command(arguments: list[str]) -> int:
+    if {"-h", "--help"} & set(arguments):
+        print(USAGE, end="")
+        return 0
+    if "--version" in arguments:
+        from sphstudy import __version__
+
+        print(__version__)
+        return 0
+    if arguments and arguments[0] in ("status", "list", "describe"):
+        from sphstudy import inspection
+
+        return getattr(inspection, f"{arguments[0]}_command")(arguments[1:])
+    return _sweep(arguments)
+
+
+def _sweep(arguments: list[str]) -> int:
+    flags = {_FLAGS[a] for a in arguments if a in _FLAGS}
+    overrides = [a for a in arguments if a not in _FLAGS]
+    unknown = [a for a in overrides if a.startswith("-") or "=" not in a]
+    if unknown:
+        raise ConfigurationError(
+            [f"{a}: neither a command, a flag nor key=value (see sphstudy --help)" for a in unknown]
+        )
+    from sphstudy import sweep
+
+    return sweep.run(overrides, many="sweep" in flags, force="force" in flags)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,180 @@
+"""From the command line to points: Hydra composes, wrong input is answered before anything runs."""
+
+import difflib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from hydra import initialize_config_dir
+from hydra._internal.callbacks import Callbacks
+from hydra._internal.core_plugins.basic_sweeper import BasicSweeper
+from hydra.core.global_hydra import GlobalHydra
+from hydra.core.override_parser.overrides_parser import OverridesParser
+from hydra.core.override_parser.types import Override
+from hydra.core.plugins import Plugins
+from hydra.errors import HydraException
+from hydra.plugins.launcher import Launcher
+from hydra.types import HydraContext, RunMode, TaskFunction
+from omegaconf import DictConfig, OmegaConf
+from omegaconf.errors import OmegaConfBaseException
+
+from sphstudy.config import ConfigurationError, RunConfig, configuration_folder, validate
+
+_LAUNCHER = ("hydra/launcher", "hydra.launcher")
+
+
+@dataclass(frozen=True)
+class Point:
+    """One run of a sweep: the overrides that make it, and the configuration they make."""
+
+    overrides: tuple[str, ...]
+    config: RunConfig
+
+
+class Session:
+    """Hydra, ready to compose configurations from `conf/` and to launch runs."""
+
+    def __init__(self):
+        self._hydra = GlobalHydra.instance().hydra
+        self._loader = self._hydra.config_loader
+        self._parser = OverridesParser.create(config_loader=self._loader)
+        self._composed: dict[tuple[str, ...], DictConfig] = {}
+
+    def points(self, arguments: list[str], sweep: bool) -> tuple[list[Point], str]:
+        """All points that the overrides span, validated, and the folder of their results.
+
+        Raises ConfigurationError with all complaints. Without `sweep`, a list of values is one.
+        """
+        overrides = self._parse([a for a in arguments if a not in launcher_overrides(arguments)])
+        if not sweep:
+            many = [o for o in overrides if o.is_sweep_override()]
+            if many:
+                raise ConfigurationError(
+                    [f"{o.input_line}: several values make a sweep: add -m" for o in many]
+                )
+        grid = BasicSweeper.split_arguments(overrides, None)[0]
+        complaints: dict[str, None] = {}
+        points: list[Point] = []
+        results = set()
+        for choice in grid:
+            try:
+                composed = self._compose(choice)
+                results.add(str(composed.pop("results")))
+                points.append(Point(tuple(choice), validate(composed)))
+            except ConfigurationError as error:
+                complaints |= dict.fromkeys(error.complaints)
+        if len(results) > 1:
+            complaints["results: one folder for all points, please"] = None
+        if complaints:
+            raise ConfigurationError(list(complaints))
+        return points, results.pop()
+
+    def _parse(self, arguments: list[str]) -> list[Override]:
+        complaints = []
+        overrides = []
+        for argument in arguments:
+            try:
+                override = self._parser.parse_override(argument)
+            except HydraException:
+                complaints.append(f"{argument}: not understood; write key=value")
+                continue
+            complaints += self._complaint(override)
+            overrides.append(override)
+        if complaints:
+            raise ConfigurationError(complaints)
+        return overrides
+
+    def _complaint(self, override: Override) -> Iterator[str]:
+        """What is wrong with one override, before its value is looked at."""
+        line, key = override.input_line, override.key_or_group
+        if override.is_add() or override.is_delete() or override.package is not None:
+            yield f"{line}: write key=value; keys cannot be added, deleted or moved"
+        elif "${" in line:
+            yield f"{line}: interpolations are not taken from the command line"
+        elif key.startswith("hydra"):
+            yield f"{line}: of Hydra's own keys, hydra/launcher and hydra.launcher.* can be set"
+        elif "." not in key and (options := self._loader.get_group_options(key)):
+            values = override.value()
+            chosen = [values] if isinstance(values, str) else getattr(values, "list", [])
+            for value in chosen:
+                if value not in options:
+                    yield f"{key}={value}: there is {', '.join(options)}"
+
+    def _compose(self, overrides: list[str]) -> dict[str, Any]:
+        """The plain dictionary for one point.
+
+        Configuration groups are composed once per choice; single values are set on a copy.
+        """
+        parsed = self._parser.parse_overrides(overrides)
+        groups = [o for o in parsed if self._loader.get_group_options(o.key_or_group)]
+        chosen = tuple(o.input_line for o in groups)
+        if chosen not in self._composed:
+            config = self._loader.load_configuration("config", list(chosen), RunMode.RUN)
+            self._composed[chosen] = _without_hydra(config)
+        config = OmegaConf.create(self._composed[chosen])
+        complaints = []
+        for override in parsed:
+            if override in groups:
+                continue
+            key = override.key_or_group
+            if not _has(config, key):
+                complaints.append(_unknown(config, override))
+                continue
+            try:
+                OmegaConf.update(config, key, override.value(), merge=False)
+            except OmegaConfBaseException as error:
+                complaints.append(f"{override.input_line}: {str(error).splitlines()[0]}")
+        if complaints:
+            raise ConfigurationError(complaints)
+        return OmegaConf.to_container(config, resolve=True)
+
+    def launcher(self, task: TaskFunction, overrides: list[str]) -> Launcher:
+        """The launcher that the configuration and the overrides name, set up to run `task`."""
+        try:
+            config = self._loader.load_configuration("config", overrides, RunMode.MULTIRUN)
+            return Plugins.instance().instantiate_launcher(
+                hydra_context=HydraContext(config_loader=self._loader, callbacks=Callbacks()),
+                task_function=task,
+                config=config,
+            )
+        except HydraException as error:
+            raise ConfigurationError([f"{' '.join(overrides)}: {error}".splitlines()[0]]) from None
+
+
+def launcher_overrides(arguments: list[str]) -> list[str]:
+    """Those arguments that choose or configure the launcher, not the runs."""
+    return [a for a in arguments if a.startswith(_LAUNCHER)]
+
+
+@contextmanager
+def session() -> Iterator[Session]:
+    """A Session on the project's configuration folder."""
+    folder = str(configuration_folder().resolve())
+    with initialize_config_dir(folder, version_base="1.3", job_name="sphstudy"):
+        yield Session()
+
+
+def _without_hydra(config: DictConfig) -> dict[str, Any]:
+    plain = {key: config[key] for key in config if key != "hydra"}
+    return OmegaConf.to_container(OmegaConf.create(plain), resolve=False)
+
+
+def _has(config: DictConfig, key: str) -> bool:
+    node: Any = config
+    for part in key.split("."):
+        if not OmegaConf.is_dict(node) or part not in node:
+            return False
+        node = node[part]
+    return True
+
+
+def _unknown(config: DictConfig, override: Override) -> str:
+    *path, last = override.key_or_group.split(".")
+    node = OmegaConf.select(config, ".".join(path)) if path else config
+    if not OmegaConf.is_dict(node):
+        node, path, last = config, [], override.key_or_group
+    names = sorted(str(name) for name in node)
+    close = difflib.get_close_matches(last, names, n=1, cutoff=0.5)
+    hint = f"did you mean {'.'.join([*path, close[0]])}?" if close else ""
+    return f"{override.input_line}: there is no such key; {hint or 'there are ' + ', '.join(names)}"

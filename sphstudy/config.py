@@ -1,0 +1,175 @@
+"""The whole truth of a run: one frozen dataclass, validated from what Hydra composed.
+
+Scenes and methods are found by the `kind` in their YAML file: module `sphstudy.scenes.<kind>` or
+`sphstudy.methods.<kind>`, whose `Parameters` declare types, ranges and meanings. Nothing is registered.
+"""
+
+import importlib
+import json
+import os
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from sphstudy.parameters import count, described, number, parameters
+
+
+class ConfigurationError(ValueError):
+    """Wrong input. `complaints`: one line each, naming key, value and what is allowed."""
+
+    def __init__(self, complaints: list[str]):
+        super().__init__("\n".join(complaints))
+        self.complaints = complaints
+
+
+@parameters
+class Record:
+    """What a run keeps."""
+
+    samples: count("points of the history, at equal intervals", ge=10, le=100_000)
+    times: described(tuple[float, ...], "times at which fields are kept (s), besides each stage's end")
+
+
+@parameters
+class RunConfig:
+    """One run. `scene`, `method` and `solve` are the Parameters of their modules."""
+
+    scene: described(Any, "what is simulated")
+    method: described(Any, "how it is discretised")
+    solve: described(Any, "what is done with it")
+    h: number("relative smoothing radius h̃ = h / ((Δx + Δy)/2)", gt=0)
+    n: count("resolution: rows of a plate, particles along the side of a crack square", ge=1)
+    seed: count("seed of anything random in a scene", ge=0)
+    record: described(Record, "what is kept")
+
+    def as_dict(self) -> dict[str, Any]:
+        """Nested plain dictionary: the resolved configuration as it is stored and hashed."""
+        return json.loads(TypeAdapter(RunConfig).dump_json(self, warnings=False)) | {
+            part: json.loads(TypeAdapter(type(value)).dump_json(value))
+            for part in ("scene", "method", "solve")
+            for value in (getattr(self, part),)
+        }
+
+    def flat(self) -> dict[str, Any]:
+        """The same with dotted keys; `scene`, `method`, `solve` stand for their names."""
+        flat: dict[str, Any] = {}
+        for key, value in self.as_dict().items():
+            if isinstance(value, dict):
+                flat |= {f"{key}.{inner}": v for inner, v in value.items() if inner != "name"}
+                flat |= {key: value["name"]} if "name" in value else {}
+            else:
+                flat[key] = value
+        return flat
+
+    @property
+    def label(self) -> str:
+        """Short name for people: scene, method, h and n."""
+        return f"{self.scene.name}-{self.method.name}-h{self.h:g}-n{self.n}"
+
+
+def configuration_folder() -> Path:
+    """The folder `conf`: inside the package when installed, beside it in a checkout."""
+    inside = Path(__file__).parent / "conf"
+    return inside if inside.is_dir() else Path(__file__).parent.parent / "conf"
+
+
+def scene_module(kind: str) -> ModuleType:
+    """The module that builds scenes of this kind."""
+    return _module("scenes", kind)
+
+
+def method_module(kind: str) -> ModuleType:
+    """The module of methods of this kind."""
+    return _module("methods", kind)
+
+
+def solver_module(name: str) -> ModuleType:
+    """The module of a solver."""
+    return _module("solve", name)
+
+
+def _module(package: str, name: str) -> ModuleType:
+    if not name.isidentifier():
+        raise ConfigurationError([f"{package}: {name!r} is not the name of a module"])
+    try:
+        return importlib.import_module(f"sphstudy.{package}.{name}")
+    except ModuleNotFoundError as error:
+        raise ConfigurationError([f"{package}: there is no module {name!r} ({error})"]) from None
+
+
+def validate(composed: dict[str, Any]) -> RunConfig:
+    """The configuration of a run from the plain dictionary that Hydra composed.
+
+    Raises ConfigurationError with every complaint: types, ranges, unknown keys, fit of scene, method
+    and resolution, and memory.
+    """
+    composed = _rounded(composed)
+    complaints: list[str] = []
+    parts: dict[str, Any] = {}
+    modules = {
+        "scene": scene_module(composed["scene"]["kind"]),
+        "method": method_module(composed["method"]["kind"]),
+        "solve": solver_module(composed["solve"]["name"]),
+    }
+    for part, module in modules.items():
+        parts[part] = _checked(module.Parameters, composed[part], f"{part}.", complaints)
+    rest = {key: composed[key] for key in ("h", "n", "seed", "record")}
+    config = _checked(RunConfig, {**parts, **rest}, "", complaints)
+    if complaints:
+        raise ConfigurationError(complaints)
+    complaints += modules["scene"].check(config)
+    complaints += modules["method"].check(config)
+    if config.solve.name not in modules["method"].SOLVERS:
+        offered = ", ".join(modules["method"].SOLVERS)
+        complaints.append(
+            f"solve={config.solve.name}: method {config.method.name} takes {offered}"
+        )
+    complaints += _memory_complaint(config, modules["scene"], modules["method"])
+    if complaints:
+        raise ConfigurationError(complaints)
+    return config
+
+
+def _rounded(values: Any) -> Any:
+    """Floats to 12 significant digits: range(1,2,0.1) must not make two coordinates of 1.9."""
+    if isinstance(values, dict):
+        return {key: _rounded(value) for key, value in values.items()}
+    if isinstance(values, list):
+        return [_rounded(value) for value in values]
+    return float(f"{values:.12g}") if isinstance(values, float) else values
+
+
+def _checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
+    try:
+        return TypeAdapter(cls).validate_python(values)
+    except ValidationError as error:
+        for item in error.errors():
+            key = prefix + ".".join(str(part) for part in item["loc"])
+            message = item["msg"].removeprefix("Input ").removeprefix("Value error, ")
+            if item["type"] in ("unexpected_keyword_argument", "extra_forbidden"):
+                allowed = ", ".join(sorted(cls.__dataclass_fields__))
+                message = f"there is no such key (there are {allowed})"
+            complaints.append(f"{key}={item['input']}: {message}")
+        return None
+
+
+def _memory_complaint(config: RunConfig, scene: ModuleType, method: ModuleType) -> list[str]:
+    particles = scene.particles(config)
+    needed = method.memory(particles, config.h)
+    there = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    if needed <= there:
+        return []
+    return [
+        f"n={config.n}: {particles:,} particles need about {_size(needed)} of memory, "
+        f"this machine has {_size(there)}"
+    ]
+
+
+def _size(count_of_bytes: float) -> str:
+    for unit in ("bytes", "KiB", "MiB", "GiB", "TiB"):
+        if count_of_bytes < 1024:
+            return f"{count_of_bytes:.0f} {unit}"
+        count_of_bytes /= 1024
+    return f"{count_of_bytes:,.0f} PiB"

@@ -1,0 +1,60 @@
+"""Williams' field of a crack tip in plane stress, modes I and II (thesis 3.6 to 3.17).
+
+Crack on the negative x axis, tip at the origin. Two signs of mode II that the thesis prints wrongly (u_y,
+σ_xx) are those that satisfy Hooke's law and equilibrium.
+"""
+
+import numpy as np
+
+
+def displacement(
+    mode: int,
+    x: np.ndarray,
+    y: np.ndarray,
+    stress_intensity: float,
+    youngs_modulus: float,
+    poisson_ratio: float,
+) -> tuple[np.ndarray, np.ndarray]:
+    """u_x, u_y [m] at x, y (m) for K (Pa √m), E (Pa), ν; mode 1 or 2. Raises ValueError otherwise."""
+    half = 0.5 * np.arctan2(y, x)
+    kappa = (3.0 - poisson_ratio) / (1.0 + poisson_ratio)
+    scale = (1.0 + poisson_ratio) * stress_intensity / (4.0 * np.pi * youngs_modulus)
+    scale = scale * np.sqrt(2.0 * np.pi * np.hypot(x, y))
+    if mode == 1:
+        return (
+            scale * ((2.0 * kappa - 1.0) * np.cos(half) - np.cos(3.0 * half)),
+            scale * ((2.0 * kappa + 1.0) * np.sin(half) - np.sin(3.0 * half)),
+        )
+    if mode == 2:
+        return (
+            scale * ((2.0 * kappa + 3.0) * np.sin(half) + np.sin(3.0 * half)),
+            -scale * ((2.0 * kappa - 3.0) * np.cos(half) + np.cos(3.0 * half)),
+        )
+    raise ValueError(f"mode {mode}: must be 1 or 2")
+
+
+def stress(
+    mode: int, x: np.ndarray, y: np.ndarray, stress_intensity: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """σ_xx, σ_yy, σ_xy [Pa] at x, y (m); mode 1 or 2. Raises ValueError otherwise."""
+    half = 0.5 * np.arctan2(y, x)
+    scale = stress_intensity / np.sqrt(2.0 * np.pi * np.hypot(x, y))
+    sine, cosine = np.sin(half), np.cos(half)
+    if mode == 1:
+        return (
+            scale * cosine * (1.0 - sine * np.sin(3.0 * half)),
+            scale * cosine * (1.0 + sine * np.sin(3.0 * half)),
+            scale * cosine * sine * np.cos(3.0 * half),
+        )
+    if mode == 2:
+        return (
+            -scale * sine * (2.0 + cosine * np.cos(3.0 * half)),
+            scale * sine * cosine * np.cos(3.0 * half),
+            scale * cosine * (1.0 - sine * np.sin(3.0 * half)),
+        )
+    raise ValueError(f"mode {mode}: must be 1 or 2")
+
+
+def energy_release_rate(stress_intensity: float, youngs_modulus: float) -> float:
+    """G = K²/E [J/m²] in plane stress."""
+    return stress_intensity**2 / youngs_modulus

@@ -1,0 +1,162 @@
+"""The commands that only look: status, list, describe."""
+
+import dataclasses
+import importlib
+from collections import Counter
+
+import netCDF4
+import yaml
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+
+from sphstudy.config import (
+    ConfigurationError,
+    configuration_folder,
+    method_module,
+    scene_module,
+    solver_module,
+)
+from sphstudy.progress import is_alive, read_marker
+from sphstudy.record import STATUS
+from sphstudy.store import Store
+
+_GROUPS = {"scene": scene_module, "method": method_module, "solve": solver_module}
+
+
+def _settings(group: str, name: str) -> dict:
+    path = configuration_folder() / group / f"{name}.yaml"
+    if not path.is_file():
+        raise ConfigurationError([f"{group}={name}: there is {', '.join(_names(group))}"])
+    return yaml.safe_load(path.read_text())
+
+
+def _names(group: str) -> list[str]:
+    return sorted(path.stem for path in (configuration_folder() / group).glob("*.yaml"))
+
+
+def _first_line(module) -> str:
+    return (module.__doc__ or "").strip().splitlines()[0]
+
+
+def _module(group: str, name: str):
+    settings = _settings(group, name)
+    settings = settings.get(group, settings)
+    return _GROUPS[group](settings["name" if group == "solve" else "kind"])
+
+
+def list_command(arguments: list[str]) -> int:
+    """Prints scenes, methods, solvers and the metrics of each scene."""
+    if arguments:
+        raise ConfigurationError([f"{' '.join(arguments)}: list takes no arguments"])
+    for group in _GROUPS:
+        print(f"{group}:")
+        for name in _names(group):
+            print(f"  {name:10s} {_first_line(_module(group, name))}")
+    print("metrics:")
+    modules = {m: None for name in _names("scene") for m in _module("scene", name).METRICS}
+    for name in modules:
+        module = importlib.import_module(f"sphstudy.metrics.{name}")
+        print(f"  {name:12s} {_first_line(module)}")
+    return 0
+
+
+def describe_command(arguments: list[str]) -> int:
+    """Prints every setting of a scene, method or solver: value, range, unit, meaning."""
+    if len(arguments) == 1:
+        owners = [group for group in _GROUPS if arguments[0] in _names(group)]
+        arguments = [*owners[:1], *arguments]
+    if len(arguments) != 2 or arguments[0] not in _GROUPS:
+        raise ConfigurationError(
+            [f"describe {' '.join(arguments)}: write describe {'|'.join(_GROUPS)} NAME"]
+        )
+    group, name = arguments
+    settings = _settings(group, name)
+    values = settings.get(group, settings)
+    module = _module(group, name)
+    print(f"{group}={name}: {_first_line(module)}\n")
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    for heading in ("key", "value", "allowed", "meaning"):
+        table.add_column(heading, overflow="fold")
+    if "n" in settings:
+        table.add_row("n", str(settings["n"]), "", (module.Parameters.__doc__ or "").strip())
+    for field in dataclasses.fields(module.Parameters):
+        if field.name not in ("name", "kind"):
+            meaning, allowed = _meaning(field.type)
+            value = str(values[field.name])
+            table.add_row(f"{group}.{field.name}", value, allowed, meaning)
+    _console().print(table)
+    return 0
+
+
+def _meaning(annotation) -> tuple[str, str]:
+    """Meaning and allowed values of a field, from its annotation."""
+    parts = [annotation, *getattr(annotation, "__args__", ())]
+    described = next(p for p in parts if hasattr(p, "__metadata__"))
+    field = described.__metadata__[0]
+    limits = [str(limit) for limit in field.metadata if type(limit).__name__ in _SIGNS]
+    kind = described.__origin__
+    choices = getattr(kind, "__args__", ())
+    allowed = " | ".join(str(c) for c in choices) if choices else " and ".join(
+        f"{_SIGNS[type(limit).__name__]} {_bound(limit):g}"
+        for limit in field.metadata
+        if type(limit).__name__ in _SIGNS
+    )
+    if described is not annotation:
+        allowed = f"{allowed} or null"
+    return field.description, allowed if choices or limits else allowed
+
+
+_SIGNS = {"Gt": ">", "Ge": ">=", "Lt": "<", "Le": "<="}
+
+
+def _bound(limit) -> float:
+    return next(getattr(limit, name) for name in ("gt", "ge", "lt", "le") if hasattr(limit, name))
+
+
+def status_command(arguments: list[str]) -> int:
+    """Prints what the results folder holds: every run with its outcome, running ones with progress."""
+    folder = "results"
+    for argument in arguments:
+        key, _, value = argument.partition("=")
+        if key != "results" or not value:
+            raise ConfigurationError([f"{argument}: status takes results=FOLDER"])
+        folder = value
+    runs = Store(folder).runs
+    if not runs.is_dir():
+        raise ConfigurationError([f"results={folder}: there are no runs"])
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    for heading in ("run", "outcome", "CPU (s)", "note"):
+        table.add_column(heading)
+    counts: Counter[str] = Counter()
+    for path in sorted(runs.glob("*.nc")):
+        outcome, seconds, note = _glance(path)
+        counts[outcome] += 1
+        table.add_row(path.stem, outcome, seconds, note)
+    for path in sorted(runs.glob("*.running.json")):
+        note = read_marker(path)
+        if note:
+            state = "running" if is_alive(note) else "interrupted"
+            counts[state] += 1
+            progress = f"step {note['step']:,} of {note['steps']:,}, process {note['process']}"
+            table.add_row(path.name.removesuffix(".running.json"), state, "", progress)
+    console = _console()
+    console.print(table)
+    print(", ".join(f"{count} {name}" for name, count in counts.items()) or "no runs")
+    return 0
+
+
+def _glance(path) -> tuple[str, str, str]:
+    """Outcome, CPU seconds and message of a record, without loading it."""
+    try:
+        with netCDF4.Dataset(path) as run:
+            seconds = run.variables.get("cpu_seconds")
+            cpu = "" if seconds is None else f"{float(seconds[...]):.1f}"
+            return STATUS[int(run["status"][...])], cpu, run.message
+    except (OSError, LookupError, AttributeError) as error:
+        return "unreadable", "", str(error).splitlines()[0]
+
+
+def _console() -> Console:
+    console = Console()
+    return console if console.is_terminal else Console(width=160)

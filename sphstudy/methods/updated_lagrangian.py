@@ -1,0 +1,141 @@
+"""The thesis formulation: updated Lagrangian SPH, symmetric momentum equation, continuity, XSPH."""
+
+import math
+from collections.abc import Iterator
+from typing import Literal
+
+import numpy as np
+
+from sphstudy.parameters import count, described, number, parameters, text
+from sphstudy.scenes.problem import Problem
+from sphstudy.sph import kernel
+from sphstudy.sph.artificial_stress import ArtificialStress
+from sphstudy.sph.crack import Crack
+from sphstudy.sph.updated_lagrangian import Model
+from sphstudy.sph.viscosity import Viscosity
+
+FEWEST_NEIGHBOURS = 8
+"""On a square lattice, inside the support: fewer leave the velocity gradient without its diagonals."""
+
+SOLVERS = ("explicit",)
+
+BYTES_PER_PARTICLE = 700
+"""State, predicted state, two derivatives, pair data, sums, reference positions."""
+
+BYTES_PER_PAIR = 24
+"""Neighbour list at its largest, while it is being sorted."""
+
+
+@parameters
+class Parameters:
+    """Every constant and open choice of the thesis formulation."""
+
+    name: text("name of the method")
+    kind: text("module that builds it")
+    xsph: number("µ of the smoothed velocity (2.20); 0: off", ge=0, le=1)
+    viscosity_linear: number("α of the artificial viscosity (2.21)", ge=0)
+    viscosity_quadratic: number("β of the artificial viscosity (2.21)", ge=0)
+    artificial_stress: number("ζ of the artificial stress (2.25); 0: off", ge=0, le=1)
+    artificial_exponent: count("exponent n of f_ij in (2.24)", ge=0, le=15)
+    bulk_modulus: described(
+        Literal["unprimed", "primed"],
+        "K of the sound speed (2.22), hence of the time step: from E, ν or from E', ν'",
+    )
+    constrained_smoothing: described(
+        Literal["prescribed", "free"],
+        "smoothed velocity of constrained particles: the prescribed value, or smoothed like any other",
+    )
+    prescribe_again: described(bool, "prescribe velocities again after the smearing (2.26)")
+    visibility: described(
+        Literal["inclusive", "exclusive"],
+        "does a pair that passes exactly through a crack node see each other (exclusive) or not",
+    )
+    visibility_tolerance: number("widening of the visibility test", gt=0, lt=1e-2)
+    retest_visibility: described(
+        bool, "judge visibility in the current positions at every neighbour search, or in the first"
+    )
+    skin: number("skin of the neighbour list, in particle spacings", gt=0, le=1)
+
+
+def lattice_neighbours(h: float) -> int:
+    """Neighbours strictly inside the support of a particle on a square lattice, smoothing radius h."""
+    radius = kernel.SUPPORT * h
+    reach = np.arange(-math.ceil(radius), math.ceil(radius) + 1)
+    distance_squared = reach[:, None] ** 2 + reach[None, :] ** 2
+    return int(np.count_nonzero(distance_squared < radius**2 * (1.0 - 1e-12))) - 1
+
+
+def check(config) -> Iterator[str]:
+    """Complaints about h and n."""
+    found = lattice_neighbours(config.h)
+    if found < FEWEST_NEIGHBOURS:
+        yield (
+            f"h={config.h:g}: too few neighbours for this method ({found}, at least "
+            f"{FEWEST_NEIGHBOURS} needed: h > {math.sqrt(2) / kernel.SUPPORT:.4g})"
+        )
+    if kernel.SUPPORT * config.h >= config.n:
+        yield f"h={config.h:g}: the support is wider than the body's {config.n} rows"
+
+
+def memory(particles: int, h: float) -> float:
+    """Estimated peak memory of a run (bytes)."""
+    pairs = 0.5 * particles * math.pi * (kernel.SUPPORT * h + 0.5) ** 2
+    return particles * BYTES_PER_PARTICLE + pairs * BYTES_PER_PAIR
+
+
+def wave_speed(config, problem: Problem) -> float:
+    """c0 = √(K/ρ0) of the time step rule (2.27) [m/s]."""
+    return math.sqrt(_bulk_modulus(config, problem) / problem.body.material.density)
+
+
+def _bulk_modulus(config, problem: Problem) -> float:
+    material = problem.body.material
+    if config.method.bulk_modulus == "unprimed" or material.plane == "strain":
+        return material.bulk_modulus
+    return material.lame_modulus + 2.0 / 3.0 * material.shear_modulus
+
+
+def _crack(config, problem: Problem, nodes: int) -> Crack | None:
+    if nodes == 0:
+        return None
+    method = config.method
+    sign = 1.0 if method.visibility == "inclusive" else -1.0
+    frozen = None if method.retest_visibility else np.stack((problem.body.x, problem.body.y))
+    return Crack(
+        problem.crack_first[:nodes],
+        problem.crack_second[:nodes],
+        sign * method.visibility_tolerance,
+        frozen,
+    )
+
+
+def model(problem: Problem, config, crack_nodes: int) -> Model:
+    """The right-hand side of the problem with the first `crack_nodes` nodes of its crack open."""
+    method, body = config.method, problem.body
+    length = config.h * body.mean_spacing
+    spacing_kernel = float(kernel.value(1.0 / config.h))
+    viscous = method.viscosity_linear > 0.0 or method.viscosity_quadratic > 0.0
+    return Model(
+        mass=body.mass,
+        smoothing_length=length,
+        normalisation=kernel.normalisation(length),
+        skin=method.skin * min(body.spacing_x, body.spacing_y),
+        lame_modulus=body.material.lame_modulus,
+        shear_modulus=body.material.shear_modulus,
+        bulk_modulus=_bulk_modulus(config, problem),
+        constraints=problem.constraints,
+        prescribe_smoothed=method.constrained_smoothing == "prescribed",
+        prescribe_again=method.prescribe_again,
+        xsph=method.xsph or None,
+        viscosity=Viscosity(method.viscosity_linear, method.viscosity_quadratic)
+        if viscous
+        else None,
+        artificial=ArtificialStress(
+            method.artificial_stress, method.artificial_exponent, spacing_kernel
+        )
+        if method.artificial_stress > 0.0
+        else None,
+        damping=config.solve.damping or None,
+        smoothing=config.solve.smoothing or None,
+        crack=_crack(config, problem, crack_nodes),
+    )

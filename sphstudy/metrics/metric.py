@@ -1,0 +1,30 @@
+"""What a metric is, and how all metrics of a run are measured."""
+
+import importlib
+from typing import NamedTuple
+
+import xarray as xr
+
+
+class Metric(NamedTuple):
+    """A number, its UDUNITS unit ("1": pure number) and what it is."""
+
+    value: float
+    units: str
+    long_name: str
+
+
+def measure(run: xr.Dataset, config, modules: tuple[str, ...]) -> dict[str, Metric]:
+    """All metrics of the named modules of `sphstudy.metrics`, for one record."""
+    found: dict[str, Metric] = {}
+    for name in modules:
+        found |= importlib.import_module(f"sphstudy.metrics.{name}").measure(run, config)
+    return found
+
+
+def snapshot(run: xr.Dataset, label: str) -> xr.Dataset:
+    """The fields of a record at the snapshot of that label. Raises KeyError if there is none."""
+    labels = [str(value) for value in run["snapshot_label"].values]
+    if label not in labels:
+        raise KeyError(f"no snapshot {label!r} (there are {', '.join(labels)})")
+    return run.isel(snapshot=labels.index(label))

@@ -1,0 +1,111 @@
+"""Frequency, amplitude and decay of the vibrating plate, against the beam and against 2-D elasticity."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from scipy.optimize import least_squares
+
+from sphstudy.exact import beam
+from sphstudy.exact.elasticity2d import plate_frequency
+from sphstudy.metrics.metric import Metric
+from sphstudy.scenes.plate import represented_length
+from sphstudy.sph.material import Material
+
+_TWO_SIGMA = 1.959964
+"""Half-width of a 95 % interval in standard deviations."""
+
+
+@dataclass(frozen=True)
+class DampedSine:
+    """u = A exp(-κt) sin ωt (3.3): A (m), κ (1/s), ω (rad/s), and half-widths of 95 % intervals.
+
+    `residual`: rms of what the fit leaves, over |A|. The intervals take the residuals for independent
+    noise; where the model itself does not fit, the residual says more.
+    """
+
+    amplitude: float
+    decay: float
+    omega: float
+    amplitude_interval: float
+    decay_interval: float
+    omega_interval: float
+    residual: float
+
+
+def fit_damped_sine(time: np.ndarray, displacement: np.ndarray, omega_guess: float) -> DampedSine:
+    """Least-squares fit of (3.3) to samples; time [M] (s), displacement [M] (m), guess (rad/s).
+
+    Raises ValueError if there are fewer than five samples, or any that is not finite, or none but zeros.
+    """
+    time, displacement = np.asarray(time, float), np.asarray(displacement, float)
+    if time.size < 5 or time.shape != displacement.shape:
+        raise ValueError(f"{time.size} samples: at least 5 times with as many displacements needed")
+    if not (np.isfinite(time).all() and np.isfinite(displacement).all()):
+        raise ValueError("samples that are not finite")
+    size = float(np.abs(displacement).max())
+    if size == 0.0:
+        raise ValueError("nothing moves")
+    scaled_time, scaled = time * omega_guess, displacement / size
+
+    def misfit(p):
+        return p[0] * np.exp(-p[1] * scaled_time) * np.sin(p[2] * scaled_time) - scaled
+
+    # A frequency far off has minima of its own: try several starts and keep the best.
+    starts = ([1.0, 0.0, ratio] for ratio in (1.0, 0.8, 1.2, 0.6, 1.5))
+    best = min((least_squares(misfit, s, x_scale=(1.0, 0.1, 0.1)) for s in starts), key=_cost)
+    variance = 2.0 * best.cost / max(time.size - 3, 1)
+    covariance = np.linalg.pinv(best.jac.T @ best.jac) * variance
+    half = _TWO_SIGMA * np.sqrt(np.diag(covariance)) * (size, omega_guess, omega_guess)
+    amplitude, decay, omega = best.x * (size, omega_guess, omega_guess)
+    residual = np.sqrt(2.0 * best.cost / time.size) / abs(best.x[0])
+    return DampedSine(amplitude, decay, omega, *(float(h) for h in half), float(residual))
+
+
+def _cost(result) -> float:
+    return result.cost
+
+
+def measure(run: xr.Dataset, config) -> dict[str, Metric]:
+    """Metrics of the vibrating plate (thesis 3.1, 4.1)."""
+    scene = config.scene
+    height = scene.L / scene.slenderness
+    beam_omega = beam.fundamental_frequency(scene.E, scene.rho, scene.L, height)
+    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
+    plate = plate_frequency(represented_length(config), height, material)
+    time, u_y = run["history_time"].values, run["history_u_y"].values
+    fit = fit_damped_sine(time, u_y, beam_omega)
+    target = scene.H0 * scene.L
+    # The tracked particle stands half a cell before the free end: its own initial speed counts.
+    tracked_x = float(run["reference_x"].max())
+    speed = target * beam_omega * float(beam.mode_shape(tracked_x, scene.L))
+    return {
+        "frequency": Metric(fit.omega, "rad s-1", "angular frequency ω of the fit"),
+        "frequency_interval": Metric(
+            fit.omega_interval, "rad s-1", "half-width of the 95 % interval of ω"
+        ),
+        "frequency_error": Metric(
+            fit.omega / beam_omega - 1.0, "1", "relative error of ω against the beam's ω0"
+        ),
+        "frequency_error_2d": Metric(
+            fit.omega / plate.value - 1.0, "1", "relative error of ω against 2-D elasticity"
+        ),
+        "frequency_2d": Metric(plate.value, "rad s-1", "ω1 of the body represented, 2-D elasticity"),
+        "frequency_2d_uncertainty": Metric(
+            plate.error, "rad s-1", "error estimate of that reference from mesh refinement"
+        ),
+        "amplitude": Metric(fit.amplitude, "m", "amplitude A of the fit"),
+        "amplitude_interval": Metric(
+            fit.amplitude_interval, "m", "half-width of the 95 % interval of A"
+        ),
+        "amplitude_error": Metric(fit.amplitude / target - 1.0, "1", "relative error of A"),
+        "largest_displacement": Metric(float(np.abs(u_y).max()), "m", "largest |u_y| of the tip"),
+        "amplitude_frequency_product": Metric(
+            fit.amplitude * fit.omega / speed, "1", "A ω / v_tip(0): 1 without loss of energy"
+        ),
+        "decay_rate": Metric(fit.decay, "s-1", "decay rate κ of the fit"),
+        "decay_rate_interval": Metric(
+            fit.decay_interval, "s-1", "half-width of the 95 % interval of κ"
+        ),
+        "fit_residual": Metric(fit.residual, "1", "rms residual of the fit over A"),
+    }

@@ -1,0 +1,92 @@
+"""One point: solve it, measure it, store it. Whatever happens becomes a record, except Ctrl-C."""
+
+import json
+import resource
+import sys
+import time
+import traceback
+
+import xarray as xr
+from omegaconf import DictConfig, OmegaConf
+
+from sphstudy import identity, record
+from sphstudy.compile_timer import CompileTimer
+from sphstudy.config import RunConfig, method_module, scene_module, solver_module, validate
+from sphstudy.metrics.metric import Metric, measure
+from sphstudy.progress import Marker
+from sphstudy.provenance import provenance
+from sphstudy.store import Store, write
+
+
+def run_point(config: RunConfig, store: Store) -> xr.Dataset:
+    """Computes a point, writes its record and returns it."""
+    with Marker(store.marker_path(config)) as marker:
+        started = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
+        try:
+            run = _solved(config, marker)
+        except Exception as error:
+            store.log_path(config).write_text(traceback.format_exc())
+            message = f"{type(error).__name__}: {error}".splitlines()[0]
+            run = record.with_outcome(xr.Dataset(), "failed", message, {}, _attributes(config))
+        run.attrs["date_created"] = started
+        write(run, store.record_path(config))
+    return run
+
+
+def _solved(config: RunConfig, marker: Marker) -> xr.Dataset:
+    scene, method = scene_module(config.scene.kind), method_module(config.method.kind)
+    solver = solver_module(config.solve.name)
+    wall, cpu = time.perf_counter(), time.process_time()
+    with CompileTimer() as compiling:
+        problem = scene.build(config)
+        solution = solver.run(problem, config, method, marker.update)
+    cost = {
+        "cpu_seconds": Metric(
+            time.process_time() - cpu - compiling.seconds, "s", "CPU time without compilation"
+        ),
+        "wall_seconds": Metric(
+            time.perf_counter() - wall - compiling.seconds, "s", "wall time without compilation"
+        ),
+        "compile_seconds": Metric(compiling.seconds, "s", "time spent compiling"),
+        "steps": Metric(solution.steps, "1", "time steps"),
+        "particles": Metric(problem.body.x.size, "1", "particles"),
+        "pairs": Metric(solution.pairs, "1", "unordered pairs in the neighbour list, at most"),
+        "peak_memory": Metric(_peak_memory(), "byte", "peak memory of the process"),
+    }
+    run = record.fields(problem, solution)
+    run = record.with_outcome(
+        run, solution.outcome, solution.message, cost, _attributes(config)
+    )
+    return measured(run, config)
+
+
+def measured(run: xr.Dataset, config: RunConfig) -> xr.Dataset:
+    """The record with its metrics, measured from its fields; none if the run is not done."""
+    metrics = {}
+    if record.STATUS[int(run["status"])] == "done":
+        metrics = measure(run, config, scene_module(config.scene.kind).METRICS)
+    return record.with_metrics(run, metrics, identity.metrics_version(config))
+
+
+def _attributes(config: RunConfig) -> dict[str, str]:
+    return {
+        "title": config.label,
+        "configuration": json.dumps(config.as_dict(), sort_keys=True),
+        "key": identity.key(config),
+        "numerics_version": identity.numerics_version(config),
+        **provenance(),
+    }
+
+
+def _peak_memory() -> float:
+    # Linux counts in KiB, macOS in bytes.
+    unit = 1 if sys.platform == "darwin" else 1024
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
+
+
+def task(composed: DictConfig) -> str:
+    """Hydra's task: one point of a sweep, in whichever process the launcher chose."""
+    values = OmegaConf.to_container(composed, resolve=True)
+    store = Store(values.pop("results"))
+    run = run_point(validate(values), store)
+    return record.STATUS[int(run["status"])]

@@ -1,0 +1,112 @@
+"""Square with an edge crack, its frame driven to the Williams field of mode I or II (thesis 3.3).
+
+After the state with crack length a has settled, the crack is opened one particle spacing at a time,
+the frame held, which gives the energies of the propagation estimate G1.
+"""
+
+from collections.abc import Iterator
+from typing import Literal
+
+import numpy as np
+
+from sphstudy.exact import williams
+from sphstudy.parameters import count, described, number, parameters, text
+from sphstudy.scenes.problem import Body, Problem, Stage, lattice
+from sphstudy.sph.constraints import Constraints
+from sphstudy.sph.material import Material
+
+METRICS = ("fracture", "norms", "equilibrium", "balance")
+HEADLINE = (
+    "G1_error",
+    "G2_error",
+    "G2_error_free",
+    "K_I_error",
+    "K_II_error",
+    "u_x_rms",
+    "u_y_rms",
+    "equilibrium_ratio",
+)
+
+
+@parameters
+class Parameters:
+    """A square of `n` by `n` particles (even: the tip lies between columns)."""
+
+    name: text("name of the scene")
+    kind: text("module that builds it")
+    mode: described(Literal[1, 2], "1: opening, 2: sliding")
+    E: number("Young's modulus", "Pa", gt=0)
+    nu: number("Poisson's ratio", gt=-1, lt=0.5)
+    rho: number("density", "kg/m3", gt=0)
+    L: number("side of the square", "m", gt=0)
+    K: number("stress intensity factor of the prescribed field", "Pa m0.5", gt=0)
+    plane: described(Literal["stress"], "plane stress: the exact field is written for it")
+    frame_layers: count("layers of particles, from the edge inwards, that are driven", ge=1)
+    extensions: count("how often the crack is opened by one spacing (2 for G1)", ge=0, le=2)
+    energy_constants: described(
+        Literal["unprimed", "primed"],
+        "strains of the energy (3.18) from E and ν, or from the thesis's E' and ν'",
+    )
+
+
+def check(config) -> Iterator[str]:
+    """Complaints about the resolution."""
+    if config.n % 2:
+        yield f"n={config.n}: must be even (the crack runs between rows, its tip between columns)"
+    least = 2 * (config.scene.frame_layers + config.scene.extensions + 2)
+    if config.n < least:
+        yield f"n={config.n}: must be at least {least} (frame, tip and extensions need the room)"
+
+
+def particles(config) -> int:
+    """How many particles the scene has."""
+    return config.n * config.n
+
+
+def crack_body(config) -> Body:
+    """The square; tags: "frame" (driven), "faces" (rows beside the crack), "ahead", "tip" disc."""
+    scene, n = config.scene, config.n
+    spacing = scene.L / n
+    line = spacing * (np.arange(n) - 0.5 * (n - 1))
+    x, y = lattice(line, line)
+    edge = 0.5 * scene.L - scene.frame_layers * spacing
+    beside = np.abs(y) < spacing
+    tags = {
+        "frame": np.maximum(np.abs(x), np.abs(y)) > edge,
+        "faces": beside & (x < 0.0),
+        "ahead": beside & (x > 0.0),
+        "tip": np.hypot(x, y) < 3.0 * config.h * spacing,
+    }
+    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
+    mass = np.full(x.size, scene.rho * spacing**2)
+    return Body(x, y, mass, spacing, spacing, material, tags)
+
+
+def build(config) -> Problem:
+    """Problem of the cracked square: driven frame, floating crack, load, settle, extend."""
+    scene, n = config.scene, config.n
+    body = crack_body(config)
+    u_x, u_y = williams.displacement(scene.mode, body.x, body.y, scene.K, scene.E, scene.nu)
+    frame = np.flatnonzero(body.tags["frame"])
+    # One node per column: half-way between the particles of the two rows beside y = 0.
+    below = np.arange(n, dtype=np.int64) + (n // 2 - 1) * n
+    nodes = n // 2
+    extensions = tuple(
+        Stage(f"extend{k}", "settle", crack_nodes=nodes + k, extension=True)
+        for k in range(1, scene.extensions + 1)
+    )
+    return Problem(
+        body=body,
+        constraints=Constraints(frame, u_x[frame], frame, u_y[frame]),
+        stages=(
+            Stage("load", "load", crack_nodes=nodes),
+            Stage("settle", "settle", crack_nodes=nodes),
+            *extensions,
+        ),
+        step_spacing=body.spacing_x,
+        velocity_x=np.zeros(body.x.size),
+        velocity_y=np.zeros(body.x.size),
+        tracked=int(np.flatnonzero(body.tags["faces"] & (body.y > 0.0))[0]),
+        crack_first=below,
+        crack_second=below + n,
+    )

@@ -1,0 +1,109 @@
+"""Vibrating plate, clamped at x = 0, free elsewhere (thesis 3.1): one period of its lowest mode."""
+
+from collections.abc import Iterator
+from typing import Literal
+
+import numpy as np
+
+from sphstudy.exact import beam
+from sphstudy.parameters import count, described, number, parameters, text
+from sphstudy.scenes.problem import Body, Problem, Stage, lattice
+from sphstudy.sph.constraints import Constraints
+from sphstudy.sph.material import Material
+
+METRICS = ("oscillation", "balance")
+HEADLINE = (
+    "frequency_error",
+    "frequency_error_2d",
+    "amplitude_error",
+    "amplitude_frequency_product",
+    "decay_rate",
+    "fit_residual",
+)
+
+
+@parameters
+class PlateParameters:
+    """A plate with `n` rows (odd: the centreline carries particles) and slenderness·n columns."""
+
+    name: text("name of the scene")
+    kind: text("module that builds it")
+    E: number("Young's modulus", "Pa", gt=0)
+    nu: number("Poisson's ratio", gt=-1, lt=0.5)
+    rho: number("density", "kg/m3", gt=0)
+    L: number("length", "m", gt=0)
+    slenderness: count("length over height; columns per row", ge=2)
+    plane: described(Literal["strain", "stress"], "plane strain or plane stress")
+    columns: described(
+        Literal["linspace", "spacing"],
+        "columns from 0 to L - Δx/2 evenly (Δx = L/(12n - 1/2)), or at kΔy, half a cell short of L",
+    )
+    clamped_columns: count("columns of particles held at the wall, the last at x = 0", ge=1, le=8)
+
+
+@parameters
+class Parameters(PlateParameters):
+    """The plate and its first push."""
+
+    H0: number("amplitude of the tip, in units of L", gt=0, lt=1)
+    periods: number("length of the run, in periods of the Euler-Bernoulli beam", gt=0)
+
+
+def check(config) -> Iterator[str]:
+    """Complaints about the resolution."""
+    if config.n % 2 == 0:
+        yield f"n={config.n}: must be odd (the tracked particle and the centreline sit at y = 0)"
+    if config.n < 3:
+        yield f"n={config.n}: must be at least 3 rows"
+
+
+def particles(config) -> int:
+    """How many particles the scene has."""
+    return config.scene.slenderness * config.n * config.n
+
+
+def plate_body(config) -> Body:
+    """The particles of the plate; tag "clamped": those at x ≤ 0, "centreline": those at y = 0."""
+    scene, rows = config.scene, config.n
+    height = scene.L / scene.slenderness
+    spacing_y = height / rows
+    columns = scene.slenderness * rows
+    if scene.columns == "linspace":
+        spacing_x = scene.L / (columns - 0.5)
+    else:
+        spacing_x = spacing_y
+    x = spacing_x * np.arange(1 - scene.clamped_columns, columns)
+    y = spacing_y * (np.arange(rows) - rows // 2)
+    grid_x, grid_y = lattice(x, y)
+    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
+    tags = {"clamped": grid_x <= 0.0, "centreline": grid_y == 0.0, "end": grid_x == x[-1]}
+    mass = np.full(grid_x.size, scene.rho * spacing_x * spacing_y)
+    return Body(grid_x, grid_y, mass, spacing_x, spacing_y, material, tags)
+
+
+def represented_length(config) -> float:
+    """Length (m) of the body that the particles stand for: to half a cell beyond the last column."""
+    scene = config.scene
+    if scene.columns == "linspace":
+        return scene.L
+    return scene.L - 0.5 * scene.L / (scene.slenderness * config.n)
+
+
+def build(config) -> Problem:
+    """Problem of the vibrating plate: clamp, initial velocity (3.2), one free stage."""
+    scene = config.scene
+    body = plate_body(config)
+    omega = beam.fundamental_frequency(scene.E, scene.rho, scene.L, scene.L / scene.slenderness)
+    clamped = np.flatnonzero(body.tags["clamped"])
+    still = np.zeros(clamped.size)
+    velocity = beam.mode_shape(body.x, scene.L) * scene.H0 * scene.L * omega
+    velocity[clamped] = 0.0
+    return Problem(
+        body=body,
+        constraints=Constraints(clamped, still, clamped, still),
+        stages=(Stage("vibrate", "run", duration=scene.periods * 2.0 * np.pi / omega),),
+        step_spacing=body.spacing_y,
+        velocity_x=np.zeros(body.x.size),
+        velocity_y=velocity,
+        tracked=int(np.flatnonzero(body.tags["centreline"] & body.tags["end"])[0]),
+    )

@@ -1,0 +1,72 @@
+"""The nouns of a scene: Body, Crack, Stages, together a Problem. Arrays and numbers only."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from sphstudy.sph.constraints import Constraints
+from sphstudy.sph.material import Material
+
+
+@dataclass(frozen=True)
+class Body:
+    """Particles in the reference configuration, stored row by row (x fastest).
+
+    x, y [N] (m); mass [N] per thickness (kg/m); spacing_x, spacing_y (m); tags: named masks [N].
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    mass: np.ndarray
+    spacing_x: float
+    spacing_y: float
+    material: Material
+    tags: dict[str, np.ndarray] = field(default_factory=dict)
+
+    @property
+    def mean_spacing(self) -> float:
+        """(Δx + Δy)/2 [m], what the relative smoothing radius h̃ refers to."""
+        return 0.5 * (self.spacing_x + self.spacing_y)
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One part of a run.
+
+    action "run": step freely for `duration` (s). "load": drive the constraints from amplitude 0 to 1.
+    "settle": hold them, until time `until` (s) or, if None, for as long as the solver's protocol says.
+    `crack_nodes`: how many of the crack's nodes are open.
+    """
+
+    name: str
+    action: str
+    duration: float | None = None
+    until: float | None = None
+    crack_nodes: int = 0
+    extension: bool = False
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A scene at one resolution, ready to be discretised.
+
+    velocity_x, velocity_y [N]: initial velocity (m/s). crack_first, crack_second [K]: the pairs of
+    particles that carry the crack's nodes, those of later extensions included. step_spacing: the Δ of
+    the time step rule (2.27) (m). tracked: index of the particle whose displacement is recorded.
+    """
+
+    body: Body
+    constraints: Constraints
+    stages: tuple[Stage, ...]
+    step_spacing: float
+    velocity_x: np.ndarray
+    velocity_y: np.ndarray
+    tracked: int
+    crack_first: np.ndarray = field(default_factory=lambda: np.empty(0, np.int64))
+    crack_second: np.ndarray = field(default_factory=lambda: np.empty(0, np.int64))
+
+
+def lattice(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Positions of all particles of the lattice with columns x and rows y, x fastest."""
+    grid_y, grid_x = np.meshgrid(y, x, indexing="ij")
+    return grid_x.ravel(), grid_y.ravel()

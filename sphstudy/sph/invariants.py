@@ -1,0 +1,75 @@
+"""Sums over the body that tell whether a run is sound: momenta, energies, spacing, work."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sphstudy.compilation import compiled_exactly
+from sphstudy.sph.neighbours import as_pairs
+from sphstudy.sph.updated_lagrangian import RHO, SXX, SXY, SYY, VX, VY, X, Y
+
+
+class Invariants(NamedTuple):
+    """Totals per thickness of one state."""
+
+    system_speed: float
+    momentum_x: float
+    momentum_y: float
+    angular_momentum: float
+    kinetic_energy: float
+    strain_energy: float
+    largest_speed: float
+    smallest_spacing: float
+    net_internal_force: float
+    constraint_power: float
+
+
+@compiled_exactly
+def measure(state, rate, mass, youngs_modulus, poisson_ratio, constraints, pairs):
+    """Invariants of a state [8, N] with unconstrained, undamped rates [8, N].
+
+    The strain energy ½ σ:ε m/ρ takes the strains from the stresses with the E and ν given (those that
+    make Hooke's law look like plane stress). net_internal_force: |Σ m a| / Σ m |a|, zero to round-off
+    if every force has its reaction. constraint_power: what the constraints put in (W/m). Smallest
+    spacing: over the pairs of the neighbour list (m).
+    """
+    speed_squared = p_x = p_y = spin = kinetic = strain = fastest = 0.0
+    force_x = force_y = force_sum = power = 0.0
+    for i in range(mass.size):
+        m, v_x, v_y = mass[i], state[VX, i], state[VY, i]
+        squared = v_x * v_x + v_y * v_y
+        speed_squared += squared
+        fastest = max(fastest, squared)
+        p_x += m * v_x
+        p_y += m * v_y
+        spin += m * (state[X, i] * v_y - state[Y, i] * v_x)
+        kinetic += 0.5 * m * squared
+        xx, yy, xy = state[SXX, i], state[SYY, i], state[SXY, i]
+        normal = xx * xx + yy * yy - 2.0 * poisson_ratio * xx * yy
+        shear = 2.0 * (1.0 + poisson_ratio) * xy * xy
+        strain += 0.5 * (normal + shear) / youngs_modulus * m / state[RHO, i]
+        force_x += m * rate[VX, i]
+        force_y += m * rate[VY, i]
+        force_sum += m * np.hypot(rate[VX, i], rate[VY, i])
+    for i in constraints.x_index:
+        power -= mass[i] * rate[VX, i] * state[VX, i]
+    for i in constraints.y_index:
+        power -= mass[i] * rate[VY, i] * state[VY, i]
+    first, second = as_pairs(pairs)
+    closest = np.inf
+    for p in range(first.size):
+        d_x = state[X, first[p]] - state[X, second[p]]
+        d_y = state[Y, first[p]] - state[Y, second[p]]
+        closest = min(closest, d_x * d_x + d_y * d_y)
+    return Invariants(
+        np.sqrt(speed_squared),
+        p_x,
+        p_y,
+        spin,
+        kinetic,
+        strain,
+        np.sqrt(fastest),
+        np.sqrt(closest),
+        np.hypot(force_x, force_y) / force_sum if force_sum > 0.0 else 0.0,
+        power,
+    )

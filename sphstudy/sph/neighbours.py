@@ -1,0 +1,217 @@
+"""Half neighbour list, kept as runs: which pairs of particles can interact.
+
+Each unordered pair stands once. Where consecutive particles i, i+1, … have a neighbour at the same
+distance in memory (i+d, i+1+d, …), as on any lattice stored row by row, the pairs form a *run*
+(start, d, length) over which the pair loops work on contiguous memory. All other pairs are *single*.
+A lattice is nearly all runs, a random cloud all singles; both are exact, whatever moves or cracks.
+A run may bridge a short gap, such as the end of a lattice row, with pairs beyond reach: they weigh zero
+for as long as the list is good.
+
+Pairs are found within the support plus a skin. The list is good for as long as no particle has
+moved farther than half the skin, so no pair is ever missed; those in the skin weigh zero. The crack's
+visibility test is made when the list is built.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sphstudy.compilation import compiled_exactly
+from sphstudy.sph.crack import line_of_sight, visible
+
+SHORTEST_RUN = 8
+"""Shorter runs go to the singles: their set-up costs more than they save."""
+
+LONGEST_GAP = 8
+"""A run bridges gaps up to this many pairs: cheaper than starting another one."""
+
+BLOCK = 4096
+"""Runs are ordered by blocks of so many particles, so that one block's data stays in cache."""
+
+
+class Neighbours(NamedTuple):
+    """Runs: pairs (start + k, start + offset + k), k < length. Singles: (first, second).
+
+    `count`: pairs in all, without those that only bridge gaps. `built_x`, `built_y` [N]: positions (m)
+    for which the list was built.
+    """
+
+    start: np.ndarray
+    offset: np.ndarray
+    length: np.ndarray
+    first: np.ndarray
+    second: np.ndarray
+    count: int
+    built_x: np.ndarray
+    built_y: np.ndarray
+
+
+@compiled_exactly
+def _cells(x, y, reach):
+    """Particles sorted into square cells at least `reach` wide: (columns, rows, begin, order)."""
+    count = x.size
+    low_x = low_y = np.inf
+    high_x = high_y = -np.inf
+    for i in range(count):
+        if np.isfinite(x[i]) and np.isfinite(y[i]):
+            low_x, high_x = min(low_x, x[i]), max(high_x, x[i])
+            low_y, high_y = min(low_y, y[i]), max(high_y, y[i])
+    # A body that flies apart must not ask for more cells than it has particles to put in them.
+    most = 2.0 * np.sqrt(count) + 16.0
+    size = max(reach, (high_x - low_x) / most, (high_y - low_y) / most)
+    if not np.isfinite(size):
+        size, low_x, low_y, high_x, high_y = 1.0, 0.0, 0.0, 0.0, 0.0
+    columns = int((high_x - low_x) / size) + 1
+    rows = int((high_y - low_y) / size) + 1
+    cell = np.zeros(count, np.int64)
+    begin = np.zeros(columns * rows + 1, np.int64)
+    for i in range(count):
+        if np.isfinite(x[i]) and np.isfinite(y[i]):
+            cell[i] = int((y[i] - low_y) / size) * columns + int((x[i] - low_x) / size)
+        begin[cell[i] + 1] += 1
+    for c in range(columns * rows):
+        begin[c + 1] += begin[c]
+    fill = begin[:-1].copy()
+    order = np.empty(count, np.int64)
+    for i in range(count):
+        order[fill[cell[i]]] = i
+        fill[cell[i]] += 1
+    return columns, rows, begin, order, cell
+
+
+@compiled_exactly
+def _pairs(x, y, reach, crack):
+    """All visible pairs i < j closer than `reach`, ordered by i: two int32 arrays."""
+    count = x.size
+    columns, rows, begin, order, cell = _cells(x, y, reach)
+    seen_x, seen_y, node_x, node_y, tolerance = line_of_sight(crack, x, y)
+    first = np.empty(16 * count + 16, np.int32)
+    second = np.empty(16 * count + 16, np.int32)
+    found = 0
+    for i in range(count):
+        row, column = divmod(cell[i], columns)
+        for r in range(max(row - 1, 0), min(row + 2, rows)):
+            for c in range(max(column - 1, 0), min(column + 2, columns)):
+                for k in range(begin[r * columns + c], begin[r * columns + c + 1]):
+                    j = order[k]
+                    if j <= i or not (x[i] - x[j]) ** 2 + (y[i] - y[j]) ** 2 < reach * reach:
+                        continue
+                    if not visible(
+                        seen_x[i], seen_y[i], seen_x[j], seen_y[j], node_x, node_y, tolerance
+                    ):
+                        continue
+                    if found == first.size:
+                        first = np.concatenate((first, np.empty_like(first)))
+                        second = np.concatenate((second, np.empty_like(second)))
+                    first[found] = i
+                    second[found] = j
+                    found += 1
+    return first[:found], second[:found]
+
+
+@compiled_exactly
+def _sorted_by_offset(first, second, count):
+    """The pairs ordered by (block of i, j - i, i): stable counting sort within each block."""
+    total = first.size
+    ordered_first, ordered_second = np.empty_like(first), np.empty_like(second)
+    fill = np.empty(count + 1, np.int64)
+    low = 0
+    while low < total:
+        block = first[low] // BLOCK
+        high = low
+        widest = 0
+        while high < total and first[high] // BLOCK == block:
+            widest = max(widest, second[high] - first[high])
+            high += 1
+        fill[: widest + 2] = 0
+        for p in range(low, high):
+            fill[second[p] - first[p] + 1] += 1
+        for d in range(widest + 1):
+            fill[d + 1] += fill[d]
+        for p in range(low, high):
+            d = second[p] - first[p]
+            ordered_first[low + fill[d]] = first[p]
+            ordered_second[low + fill[d]] = second[p]
+            fill[d] += 1
+        low = high
+    return ordered_first, ordered_second
+
+
+@compiled_exactly
+def _bridges(x, y, reach, first, second, p):
+    """Whether a run may go on from pair p to pair p + 1: same offset, nothing within reach skipped."""
+    offset = second[p] - first[p]
+    gap = first[p + 1] - first[p] - 1
+    if second[p + 1] - first[p + 1] != offset or not 0 <= gap <= LONGEST_GAP:
+        return False
+    for i in range(first[p] + 1, first[p + 1]):
+        j = i + offset
+        if (x[i] - x[j]) ** 2 + (y[i] - y[j]) ** 2 < reach * reach:
+            return False
+    return True
+
+
+@compiled_exactly
+def build(x, y, reach, crack):
+    """Neighbours of the configuration x, y [N] (m): every visible pair closer than `reach` (m).
+
+    `crack` is a Crack or None. Particles at positions that are not finite get no neighbours.
+    """
+    found_first, found_second = _pairs(x, y, reach, crack)
+    first, second = _sorted_by_offset(found_first, found_second, x.size)
+    total = first.size
+    start = np.empty(total // SHORTEST_RUN + 1, np.int64)
+    offset = np.empty_like(start)
+    length = np.empty_like(start)
+    single = np.zeros(total, np.bool_)
+    runs = 0
+    low = 0
+    while low < total:
+        last = low
+        while last + 1 < total and _bridges(x, y, reach, first, second, last):
+            last += 1
+        if last + 1 - low >= SHORTEST_RUN:
+            start[runs] = first[low]
+            offset[runs] = second[low] - first[low]
+            length[runs] = first[last] - first[low] + 1
+            runs += 1
+        else:
+            single[low : last + 1] = True
+        low = last + 1
+    return Neighbours(
+        start[:runs].copy(),
+        offset[:runs].copy(),
+        length[:runs].copy(),
+        first[single],
+        second[single],
+        total,
+        x.copy(),
+        y.copy(),
+    )
+
+
+@compiled_exactly
+def outdated(neighbours, x, y, skin):
+    """Whether some particle has moved farther than half of `skin` (m) since the list was built."""
+    limit = 0.25 * skin * skin
+    farthest = 0.0
+    for i in range(x.size):
+        moved = (x[i] - neighbours.built_x[i]) ** 2 + (y[i] - neighbours.built_y[i]) ** 2
+        farthest = moved if moved > farthest else farthest
+    return farthest > limit
+
+
+@compiled_exactly
+def as_pairs(neighbours):
+    """The list as two plain arrays of particle indices, runs first, bridging pairs included."""
+    total = neighbours.first.size + neighbours.length.sum()
+    first, second = np.empty(total, np.int64), np.empty(total, np.int64)
+    filled = 0
+    for r in range(neighbours.start.size):
+        for k in range(neighbours.length[r]):
+            first[filled] = neighbours.start[r] + k
+            second[filled] = first[filled] + neighbours.offset[r]
+            filled += 1
+    first[filled:] = neighbours.first
+    second[filled:] = neighbours.second
+    return first, second

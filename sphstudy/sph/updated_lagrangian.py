@@ -1,0 +1,192 @@
+"""The thesis's updated Lagrangian SPH: time derivatives of position, velocity, density and stress.
+
+State: one array [8, N] with the rows below. Everything on the right-hand side uses the smoothed
+velocity ṽ of XSPH. A term that is None in the model is not compiled: the types of the model's fields
+specialise every function here.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sphstudy.compilation import compiled, compiled_exactly
+from sphstudy.sph import kernel, neighbours, pair_sums
+from sphstudy.sph.artificial_stress import ArtificialStress, principal_pressure
+from sphstudy.sph.constraints import Constraints, prescribe, release
+from sphstudy.sph.crack import Crack
+from sphstudy.sph.pair_sums import Workspace
+from sphstudy.sph.viscosity import Viscosity
+
+X, Y, VX, VY, RHO, SXX, SYY, SXY = range(8)
+STATE_ROWS = 8
+
+
+class Model(NamedTuple):
+    """Everything the right-hand side needs besides the state; optional terms are None.
+
+    mass [N] (kg/m); smoothing_length (m); normalisation α_k (1/m²); skin (m) of the neighbour list;
+    lame_modulus, shear_modulus, bulk_modulus (Pa); xsph: µ of (2.20); damping: γ of (2.23) (1/s);
+    smoothing: η of (2.26). `prescribe_smoothed`: constrained particles' ṽ is prescribed too;
+    `prescribe_again`: constrained velocities are prescribed again after the smearing.
+    """
+
+    mass: np.ndarray
+    smoothing_length: float
+    normalisation: float
+    skin: float
+    lame_modulus: float
+    shear_modulus: float
+    bulk_modulus: float
+    constraints: Constraints
+    prescribe_smoothed: bool
+    prescribe_again: bool
+    xsph: float | None
+    viscosity: Viscosity | None
+    artificial: ArtificialStress | None
+    damping: float | None
+    smoothing: float | None
+    crack: Crack | None
+
+
+def workspace(model: Model, count: int) -> Workspace:
+    """Workspace for `count` particles; rows exist only for the terms that the model has."""
+    rows = pair_sums.SOUND + (model.viscosity is not None) + 3 * (model.artificial is not None)
+    return Workspace(
+        pair_data=np.zeros((rows, count)),
+        sums=np.zeros((6, count)),
+        terms=np.zeros((5, pair_sums.BATCH)),
+        gathered=np.zeros((rows, 2 * pair_sums.BATCH)),
+    )
+
+
+@compiled_exactly
+def build_neighbours(model, x, y):
+    """Neighbour list of the configuration x, y (m), out to the support plus the skin."""
+    reach = kernel.SUPPORT * model.smoothing_length + model.skin
+    return neighbours.build(x, y, reach, model.crack)
+
+
+@compiled
+def _load_motion(model, state, data):
+    """Position, velocity, mass and density of every particle into the pair data."""
+    for i in range(state.shape[1]):
+        data[pair_sums.X, i] = state[X, i]
+        data[pair_sums.Y, i] = state[Y, i]
+        data[pair_sums.U, i] = state[VX, i]
+        data[pair_sums.V, i] = state[VY, i]
+        data[pair_sums.MASS, i] = model.mass[i]
+        data[pair_sums.RHO, i] = state[RHO, i]
+
+
+@compiled
+def _load_sound_speed(viscosity, bulk_modulus, state, data):
+    """c_i = √(K/ρ_i) (2.22)."""
+    if viscosity is None:
+        return
+    for i in range(state.shape[1]):
+        data[pair_sums.SOUND, i] = np.sqrt(bulk_modulus / state[RHO, i])
+
+
+@compiled
+def _load_artificial_stress(artificial, row, state, data):
+    if artificial is None:
+        return
+    for i in range(state.shape[1]):
+        xx, yy, xy = principal_pressure(artificial, state[SXX, i], state[SYY, i], state[SXY, i])
+        data[row, i] = xx
+        data[row + 1, i] = yy
+        data[row + 2, i] = xy
+
+
+@compiled
+def _load_stress(model, state, data):
+    """What the momentum pass needs besides the motion: stress, 1/ρ, c, R."""
+    for i in range(state.shape[1]):
+        data[pair_sums.SPECIFIC, i] = 1.0 / state[RHO, i]
+        data[pair_sums.SXX, i] = state[SXX, i]
+        data[pair_sums.SYY, i] = state[SYY, i]
+        data[pair_sums.SXY, i] = state[SXY, i]
+    _load_sound_speed(model.viscosity, model.bulk_modulus, state, data)
+    row = pair_sums.artificial_row(model.viscosity)
+    _load_artificial_stress(model.artificial, row, state, data)
+
+
+@compiled
+def _add_xsph(xsph, model, pairs, work):
+    if xsph is None:
+        return
+    pair_sums.sum_smoothing(model, pairs, work)
+    data, sums = work.pair_data, work.sums
+    for i in range(data.shape[1]):
+        data[pair_sums.U, i] += xsph * sums[0, i]
+        data[pair_sums.V, i] += xsph * sums[1, i]
+
+
+@compiled
+def _smoothed_velocity(model, state, pairs, amplitude_rate, work):
+    """ṽ of (2.20) into the pair data; constrained particles keep the prescribed velocity."""
+    data = work.pair_data
+    _load_motion(model, state, data)
+    _add_xsph(model.xsph, model, pairs, work)
+    if model.prescribe_smoothed:
+        prescribe(model.constraints, data[pair_sums.U], data[pair_sums.V], amplitude_rate)
+
+
+@compiled
+def _smear(smoothing, model, state, pairs, amplitude_rate, work):
+    if smoothing is None:
+        return
+    _smoothed_velocity(model, state, pairs, amplitude_rate, work)
+    data = work.pair_data
+    for i in range(state.shape[1]):
+        state[VX, i] += smoothing * (data[pair_sums.U, i] - state[VX, i])
+        state[VY, i] += smoothing * (data[pair_sums.V, i] - state[VY, i])
+    if model.prescribe_again:
+        prescribe(model.constraints, state[VX], state[VY], amplitude_rate)
+
+
+@compiled
+def begin_step(model, state, pairs, amplitude_rate, work):
+    """Prescribes velocities and smears them, v ← (1-η) v + η ṽ (2.26)."""
+    prescribe(model.constraints, state[VX], state[VY], amplitude_rate)
+    _smear(model.smoothing, model, state, pairs, amplitude_rate, work)
+
+
+@compiled
+def rates(model, state, pairs, amplitude_rate, work, rate):
+    """Time derivative of the state [8, N] into `rate`: equations 2.24, 2.17, 2.16 and 2.4.
+
+    Accelerations still contain the constrained degrees of freedom (their reaction, per mass) and no
+    damping: `constrain` finishes them.
+    """
+    data, sums = work.pair_data, work.sums
+    _smoothed_velocity(model, state, pairs, amplitude_rate, work)
+    _load_stress(model, state, data)
+    pair_sums.sum_momentum(model, pairs, work)
+    two_mu = 2.0 * model.shear_modulus
+    for i in range(state.shape[1]):
+        mean_rate = model.lame_modulus * (sums[3, i] + sums[4, i])
+        rate[X, i] = data[pair_sums.U, i]
+        rate[Y, i] = data[pair_sums.V, i]
+        rate[VX, i] = sums[0, i]
+        rate[VY, i] = sums[1, i]
+        rate[RHO, i] = -sums[2, i]
+        rate[SXX, i] = mean_rate + two_mu * sums[3, i]
+        rate[SYY, i] = mean_rate + two_mu * sums[4, i]
+        rate[SXY, i] = two_mu * sums[5, i]
+
+
+@compiled
+def _damp(damping, rate, data):
+    if damping is None:
+        return
+    for i in range(rate.shape[1]):
+        rate[VX, i] -= damping * data[pair_sums.U, i]
+        rate[VY, i] -= damping * data[pair_sums.V, i]
+
+
+@compiled
+def constrain(model, rate, work):
+    """Adds the damping -γ ṽ to the accelerations and removes those of constrained freedoms."""
+    _damp(model.damping, rate, work.pair_data)
+    release(model.constraints, rate[VX], rate[VY])

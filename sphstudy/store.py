@@ -1,0 +1,98 @@
+"""The store: one netCDF file a run, named by what determines its numbers, written atomically.
+
+    <results>/runs/<label>-<key>.nc             the record
+    <results>/runs/<label>-<key>.running.json   while it is being computed
+    <results>/runs/<label>-<key>.log            traceback of a failed run
+"""
+
+import os
+import tempfile
+from pathlib import Path
+
+import xarray as xr
+
+from sphstudy import identity
+from sphstudy.config import ConfigurationError, RunConfig
+from sphstudy.record import STATUS
+
+REUSED = ("done", "diverged")
+"""Outcomes that are results: such a point is not computed again."""
+
+
+class Store:
+    """The records below a folder of results."""
+
+    def __init__(self, folder: str | Path):
+        self.folder = Path(folder)
+        self.runs = self.folder / "runs"
+
+    def prepare(self) -> None:
+        """Makes the folders. Raises ConfigurationError if they cannot be written."""
+        try:
+            self.runs.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryFile(dir=self.runs):
+                pass
+        except OSError as error:
+            raise ConfigurationError(
+                [f"results={self.folder}: cannot be written ({error.strerror or error})"]
+            ) from None
+
+    def record_path(self, config: RunConfig) -> Path:
+        """Where the record of this run lies, or would."""
+        return self.runs / f"{config.label}-{identity.key(config)}.nc"
+
+    def marker_path(self, config: RunConfig) -> Path:
+        """The file that exists while the run is being computed."""
+        return self.record_path(config).with_suffix(".running.json")
+
+    def log_path(self, config: RunConfig) -> Path:
+        """Where a failed run leaves its traceback."""
+        return self.record_path(config).with_suffix(".log")
+
+    def read(self, config: RunConfig) -> xr.Dataset | None:
+        """The record of a run, or None. A file that cannot be read is set aside, with its name kept."""
+        return read(self.record_path(config))
+
+    def status(self, config: RunConfig) -> str:
+        """Outcome of a run, "missing" if there is no record."""
+        run = self.read(config)
+        return "missing" if run is None else STATUS[int(run["status"])]
+
+
+def read(path: Path) -> xr.Dataset | None:
+    """A record, loaded and closed, or None if there is none or it is unreadable (then set aside)."""
+    if not path.exists():
+        return None
+    try:
+        with xr.open_dataset(path, engine="netcdf4") as run:
+            run = run.load()
+        if "status" not in run or "configuration" not in run.attrs:
+            raise ValueError("not a record of this program")
+        return run
+    except (OSError, ValueError, RuntimeError) as error:
+        aside = path.with_suffix(".unreadable")
+        os.replace(path, aside)
+        print(f"{path.name}: unreadable ({error}); set aside as {aside.name}")
+        return None
+
+
+def write(dataset: xr.Dataset, path: Path) -> None:
+    """Writes a dataset so that `path` holds either the old file or the whole new one."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    packed = {"zlib": True, "complevel": 2, "shuffle": True}
+    encoding = {
+        name: packed
+        for name, variable in dataset.variables.items()
+        if variable.ndim > 0 and variable.dtype.kind in "fi"
+    }
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=".writing-", suffix=".nc")
+    os.close(handle)
+    try:
+        dataset.to_netcdf(temporary, engine="netcdf4", encoding=encoding)
+        with open(temporary, "rb") as file:
+            os.fsync(file.fileno())
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise

@@ -10,8 +10,9 @@ sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids 
   sphstudy h=1.5 n=40                              one run (scene=mode1 method=thesis by default)
   sphstudy -m h=1.3,1.5,1.7,1.9 n=40,50,60         a sweep: every combination, in parallel
   sphstudy -m scene=plate h=1.5,1.7 n=9,15,21      the same in another scene
+  sphstudy study mode1                             a named study: the grids in studies/mode1.yaml
   sphstudy status                                  what the results folder holds, run by run
-  sphstudy list                                    scenes, methods, solvers, metrics
+  sphstudy list                                    scenes, methods, solvers, metrics, studies
   sphstudy describe scene plate                    every setting of one of them: value, unit, meaning
 
 settings (key=value, before or after -m; several values with commas make a sweep)
@@ -62,20 +63,25 @@ def _command(arguments: list[str]) -> int:
         from sphstudy import inspection
 
         return getattr(inspection, f"{arguments[0]}_command")(arguments[1:])
-    return _sweep(arguments)
+    return _run(arguments)
 
 
-def _sweep(arguments: list[str]) -> int:
+def _run(arguments: list[str]) -> int:
+    named = arguments[:1] == ["study"]
+    arguments = arguments[named:]
     flags = {_FLAGS[a] for a in arguments if a in _FLAGS}
     overrides = [a for a in arguments if a not in _FLAGS]
-    unknown = [a for a in overrides if a.startswith("-") or "=" not in a]
+    unknown = [a for a in overrides[named:] if a.startswith("-") or "=" not in a]
     if unknown:
         raise ConfigurationError(
             [f"{a}: neither a command, a flag nor key=value (see sphstudy --help)" for a in unknown]
         )
-    from sphstudy import sweep
+    from sphstudy import batch
 
-    return sweep.run(overrides, many="sweep" in flags, force="force" in flags)
+    force = "force" in flags
+    if named:
+        return batch.study_command(overrides, force)
+    return batch.run_command(overrides, many="sweep" in flags, force=force)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from rich.table import Table
 from sphstudy import identity, provenance, record
 from sphstudy.config import RunConfig, scene_module
 from sphstudy.record import STATUS
-from sphstudy.run import measured
+from sphstudy.runner import measured
 from sphstudy.store import Store, write
 
 ALWAYS = ("h", "n")
@@ -44,7 +44,7 @@ def _without_consequences(
     for key in swept:
         if key in choices or key in ALWAYS:
             continue
-        by_choice = {tuple(p.get(c) for c in choices): set() for p in flat}
+        by_choice: dict[tuple, set] = {tuple(p.get(c) for c in choices): set() for p in flat}
         for p in flat:
             by_choice[tuple(p.get(c) for c in choices)].add(_hashable(p.get(key)))
         if all(len(values) == 1 for values in by_choice.values()):
@@ -56,11 +56,11 @@ def _hashable(value: Any) -> Any:
     return value if isinstance(value, int | float | str) else json.dumps(value)
 
 
-def collect(configs: list[RunConfig], store: Store) -> tuple[xr.Dataset, Path]:
+def collect(configs: list[RunConfig], store: Store, name: str | None = None) -> tuple[xr.Dataset, Path]:
     """All points in one dataset over what was swept, written to the store's `sweeps` folder.
 
     Metrics of another version are measured again from the stored fields. Points without a record are
-    there as "missing". Returns the dataset and its file.
+    there as "missing". Returns the dataset and its file, `name` or a name made from the points.
     """
     swept = dimensions(configs)
     rows, attributes = [], {}
@@ -72,10 +72,10 @@ def collect(configs: list[RunConfig], store: Store) -> tuple[xr.Dataset, Path]:
         row["record"] = store.record_path(config).name
         row["message"] = "" if run is None else run.attrs["message"]
         if run is not None:
-            for name, variable in run.data_vars.items():
+            for label, variable in run.data_vars.items():
                 if variable.attrs.get("group") in ("metric", "cost"):
-                    row[name] = float(variable)
-                    attributes[name] = variable.attrs
+                    row[str(label)] = float(variable)
+                    attributes[str(label)] = variable.attrs
         rows.append(row)
     dataset = _dataset(pd.DataFrame(rows), swept, attributes)
     dataset.attrs = {
@@ -85,7 +85,7 @@ def collect(configs: list[RunConfig], store: Store) -> tuple[xr.Dataset, Path]:
         "configurations": json.dumps([c.as_dict() for c in configs], sort_keys=True),
         **provenance.provenance(),
     }
-    path = store.folder / "sweeps" / f"{_name(configs)}.nc"
+    path = store.folder / "sweeps" / f"{name or _name(configs)}.nc"
     write(dataset, path)
     return dataset, path
 
@@ -141,7 +141,7 @@ def _name(configs: list[RunConfig]) -> str:
 
 def print_table(dataset: xr.Dataset, configs: list[RunConfig]) -> None:
     """The points with outcome, headline metrics and cost, one line each."""
-    swept = list(dataset["status"].dims)
+    swept = [str(dimension) for dimension in dataset["status"].dims]
     headline = dict.fromkeys(
         name for c in configs for name in scene_module(c.scene.kind).HEADLINE if name in dataset
     )
@@ -151,9 +151,7 @@ def print_table(dataset: xr.Dataset, configs: list[RunConfig]) -> None:
         units = dataset[name].attrs.get("units", "1") if name in columns else "1"
         table.add_column(name if units == "1" else f"{name}\n({units})", justify="right")
     frame = dataset.to_dataframe().reset_index()
-    wanted = {
-        tuple(_hashable(c.flat().get(key)) for key in swept) for c in configs
-    }
+    wanted = {tuple(_hashable(c.flat().get(key)) for key in swept) for c in configs}
     for _, row in frame.iterrows():
         if tuple(row[key] for key in swept) in wanted:
             cells = [f"{row[key]:g}" if isinstance(row[key], float) else str(row[key]) for key in swept]

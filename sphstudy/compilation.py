@@ -45,7 +45,7 @@ def _cache_folder() -> Path:
 
 
 if not os.environ.get("NUMBA_CACHE_DIR"):
-    numba.config.CACHE_DIR = str(_cache_folder())
+    numba.config.CACHE_DIR = str(_cache_folder())  # type: ignore[attr-defined]
 for _option in _LLVM_OPTIONS:
     llvmlite.binding.set_option("sphstudy", _option)
 

@@ -36,10 +36,9 @@ class Session:
     """Hydra, ready to compose configurations from `conf/` and to launch runs."""
 
     def __init__(self):
-        self._hydra = GlobalHydra.instance().hydra
-        self._loader = self._hydra.config_loader
+        self._loader = GlobalHydra.instance().config_loader()
         self._parser = OverridesParser.create(config_loader=self._loader)
-        self._composed: dict[tuple[str, ...], DictConfig] = {}
+        self._composed: dict[tuple[str, ...], dict[str, Any]] = {}
 
     def points(self, arguments: list[str], sweep: bool) -> tuple[list[Point], str]:
         """All points that the overrides span, validated, and the folder of their results.
@@ -64,6 +63,8 @@ class Session:
                 points.append(Point(tuple(choice), validate(composed)))
             except ConfigurationError as error:
                 complaints |= dict.fromkeys(error.complaints)
+            except (HydraException, OmegaConfBaseException) as error:
+                complaints[f"{' '.join(choice)}: {str(error).splitlines()[0]}"] = None
         if len(results) > 1:
             complaints["results: one folder for all points, please"] = None
         if complaints:
@@ -72,7 +73,7 @@ class Session:
 
     def _parse(self, arguments: list[str]) -> list[Override]:
         complaints = []
-        overrides = []
+        overrides: list[Override] = []
         for argument in arguments:
             try:
                 override = self._parser.parse_override(argument)
@@ -80,6 +81,8 @@ class Session:
                 complaints.append(f"{argument}: not understood; write key=value")
                 continue
             complaints += self._complaint(override)
+            if any(other.key_or_group == override.key_or_group for other in overrides):
+                complaints.append(f"{argument}: {override.key_or_group} is given twice")
             overrides.append(override)
         if complaints:
             raise ConfigurationError(complaints)
@@ -87,7 +90,7 @@ class Session:
 
     def _complaint(self, override: Override) -> Iterator[str]:
         """What is wrong with one override, before its value is looked at."""
-        line, key = override.input_line, override.key_or_group
+        line, key = str(override.input_line), override.key_or_group
         if override.is_add() or override.is_delete() or override.package is not None:
             yield f"{line}: write key=value; keys cannot be added, deleted or moved"
         elif "${" in line:
@@ -95,9 +98,8 @@ class Session:
         elif key.startswith("hydra"):
             yield f"{line}: of Hydra's own keys, hydra/launcher and hydra.launcher.* can be set"
         elif "." not in key and (options := self._loader.get_group_options(key)):
-            values = override.value()
-            chosen = [values] if isinstance(values, str) else getattr(values, "list", [])
-            for value in chosen:
+            many = override.is_sweep_override()
+            for value in override.sweep_iterator() if many else [override.value()]:
                 if value not in options:
                     yield f"{key}={value}: there is {', '.join(options)}"
 
@@ -108,7 +110,7 @@ class Session:
         """
         parsed = self._parser.parse_overrides(overrides)
         groups = [o for o in parsed if self._loader.get_group_options(o.key_or_group)]
-        chosen = tuple(o.input_line for o in groups)
+        chosen = tuple(str(o.input_line) for o in groups)
         if chosen not in self._composed:
             config = self._loader.load_configuration("config", list(chosen), RunMode.RUN)
             self._composed[chosen] = _without_hydra(config)
@@ -127,7 +129,7 @@ class Session:
                 complaints.append(f"{override.input_line}: {str(error).splitlines()[0]}")
         if complaints:
             raise ConfigurationError(complaints)
-        return OmegaConf.to_container(config, resolve=True)
+        return _plain(config)
 
     def launcher(self, task: TaskFunction, overrides: list[str]) -> Launcher:
         """The launcher that the configuration and the overrides name, set up to run `task`."""
@@ -157,7 +159,12 @@ def session() -> Iterator[Session]:
 
 def _without_hydra(config: DictConfig) -> dict[str, Any]:
     plain = {key: config[key] for key in config if key != "hydra"}
-    return OmegaConf.to_container(OmegaConf.create(plain), resolve=False)
+    return _plain(OmegaConf.create(plain))
+
+
+def _plain(config: DictConfig) -> dict[str, Any]:
+    values: Any = OmegaConf.to_container(config, resolve=True)
+    return values
 
 
 def _has(config: DictConfig, key: str) -> bool:

@@ -4,6 +4,7 @@ Scenes and methods are found by the `kind` in their YAML file: module `sphstudy.
 `sphstudy.methods.<kind>`, whose `Parameters` declare types, ranges and meanings. Nothing is registered.
 """
 
+import dataclasses
 import importlib
 import json
 import os
@@ -28,21 +29,21 @@ class ConfigurationError(ValueError):
 class Record:
     """What a run keeps."""
 
-    samples: count("points of the history, at equal intervals", ge=10, le=100_000)
-    times: described(tuple[float, ...], "times at which fields are kept (s), besides each stage's end")
+    samples: int = count("points of the history, at equal intervals", ge=10, le=100_000)
+    times: tuple[float, ...] = described("times at which fields are kept (s), besides each stage's end")
 
 
 @parameters
 class RunConfig:
     """One run. `scene`, `method` and `solve` are the Parameters of their modules."""
 
-    scene: described(Any, "what is simulated")
-    method: described(Any, "how it is discretised")
-    solve: described(Any, "what is done with it")
-    h: number("relative smoothing radius h̃ = h / ((Δx + Δy)/2)", gt=0)
-    n: count("resolution: rows of a plate, particles along the side of a crack square", ge=1)
-    seed: count("seed of anything random in a scene", ge=0)
-    record: described(Record, "what is kept")
+    scene: Any = described("what is simulated")
+    method: Any = described("how it is discretised")
+    solve: Any = described("what is done with it")
+    h: float = number("relative smoothing radius h̃ = h / ((Δx + Δy)/2)", gt=0)
+    n: int = count("resolution: rows of a plate, particles along the side of a crack square", ge=1)
+    seed: int = count("seed of anything random in a scene", ge=0)
+    record: Record = described("what is kept")
 
     def as_dict(self) -> dict[str, Any]:
         """Nested plain dictionary: the resolved configuration as it is stored and hashed."""
@@ -123,9 +124,7 @@ def validate(composed: dict[str, Any]) -> RunConfig:
     complaints += modules["method"].check(config)
     if config.solve.name not in modules["method"].SOLVERS:
         offered = ", ".join(modules["method"].SOLVERS)
-        complaints.append(
-            f"solve={config.solve.name}: method {config.method.name} takes {offered}"
-        )
+        complaints.append(f"solve={config.solve.name}: method {config.method.name} takes {offered}")
     complaints += _memory_complaint(config, modules["scene"], modules["method"])
     if complaints:
         raise ConfigurationError(complaints)
@@ -149,7 +148,7 @@ def _checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
             key = prefix + ".".join(str(part) for part in item["loc"])
             message = item["msg"].removeprefix("Input ").removeprefix("Value error, ")
             if item["type"] in ("unexpected_keyword_argument", "extra_forbidden"):
-                allowed = ", ".join(sorted(cls.__dataclass_fields__))
+                allowed = ", ".join(sorted(field.name for field in dataclasses.fields(cls)))
                 message = f"there is no such key (there are {allowed})"
             complaints.append(f"{key}={item['input']}: {message}")
         return None

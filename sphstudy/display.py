@@ -18,6 +18,7 @@ from sphstudy.record import STATUS
 from sphstudy.store import Store
 
 _INTERVAL = 0.5
+_SILENCE = 30.0
 
 
 @dataclass
@@ -125,11 +126,15 @@ def display(runs: list[tuple[RunConfig, float]], store: Store, reused: int) -> I
 
 def _follow_plainly(board: _Board, console: Console, stop: threading.Event) -> None:
     console.print(board.headline(), highlight=False, soft_wrap=True)
-    ended = False
+    ended, spoke = False, time.monotonic()
     while not ended:
         ended = stop.wait(_INTERVAL)
-        for follower in board.look():
-            console.print(board.line(follower), highlight=False, markup=False, soft_wrap=True)
+        lines = [board.line(follower) for follower in board.look()]
+        if not (lines or ended) and time.monotonic() - spoke > _SILENCE:
+            lines = [board.headline()]
+        for line in lines:
+            console.print(line, highlight=False, markup=False, soft_wrap=True)
+            spoke = time.monotonic()
 
 
 def _follow_live(board: _Board, console: Console, stop: threading.Event) -> None:

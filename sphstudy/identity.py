@@ -57,8 +57,8 @@ def _closure(modules: tuple[str, ...]) -> set[Path]:
             continue
         found.add(path)
         for node in ast.walk(ast.parse(path.read_text())):
-            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("sphstudy"):
-                parent = node.module.removeprefix("sphstudy").lstrip(".")
+            if isinstance(node, ast.ImportFrom) and (module := node.module or "").startswith("sphstudy"):
+                parent = module.removeprefix("sphstudy").lstrip(".")
                 names = [parent, *(f"{parent}.{alias.name}".lstrip(".") for alias in node.names)]
                 waiting += [p for name in names if (p := _path(name))]
     return found
@@ -72,9 +72,8 @@ def _path(module: str) -> Path | None:
 def _code(path: Path) -> str:
     tree = ast.parse(path.read_text())
     for node in ast.walk(tree):
-        body = getattr(node, "body", None)
-        if isinstance(body, list):
-            node.body = [statement for statement in body if not _is_text(statement)]
+        if isinstance(body := getattr(node, "body", None), list):
+            body[:] = [statement for statement in body if not _is_text(statement)]
     return ast.unparse(tree)
 
 

@@ -1,15 +1,17 @@
 """The commands that only look: status, list, describe."""
 
-import dataclasses
 import importlib
 from collections import Counter
+from typing import Literal, get_args, get_origin
 
 import netCDF4
 import yaml
+from pydantic.fields import FieldInfo
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
+from sphstudy import study
 from sphstudy.config import (
     ConfigurationError,
     configuration_folder,
@@ -46,7 +48,7 @@ def _module(group: str, name: str):
 
 
 def list_command(arguments: list[str]) -> int:
-    """Prints scenes, methods, solvers and the metrics of each scene."""
+    """Prints scenes, methods, solvers, metrics and studies."""
     if arguments:
         raise ConfigurationError([f"{' '.join(arguments)}: list takes no arguments"])
     for group in _GROUPS:
@@ -58,6 +60,9 @@ def list_command(arguments: list[str]) -> int:
     for name in modules:
         module = importlib.import_module(f"sphstudy.metrics.{name}")
         print(f"  {name:12s} {_first_line(module)}")
+    print("studies:")
+    for name in study.names():
+        print(f"  {name:10s} {study.load(name).title}")
     return 0
 
 
@@ -80,38 +85,32 @@ def describe_command(arguments: list[str]) -> int:
         table.add_column(heading, overflow="fold")
     if "n" in settings:
         table.add_row("n", str(settings["n"]), "", (module.Parameters.__doc__ or "").strip())
-    for field in dataclasses.fields(module.Parameters):
-        if field.name not in ("name", "kind"):
-            meaning, allowed = _meaning(field.type)
-            value = str(values[field.name])
-            table.add_row(f"{group}.{field.name}", value, allowed, meaning)
+    for key, field in module.Parameters.__pydantic_fields__.items():
+        if key not in ("name", "kind"):
+            meaning, allowed = _meaning(field)
+            table.add_row(f"{group}.{key}", str(values[key]), allowed, meaning)
     _console().print(table)
     return 0
 
 
-def _meaning(annotation) -> tuple[str, str]:
-    """Meaning and allowed values of a field, from its annotation."""
-    parts = [annotation, *getattr(annotation, "__args__", ())]
-    described = next(p for p in parts if hasattr(p, "__metadata__"))
-    field = described.__metadata__[0]
-    limits = [str(limit) for limit in field.metadata if type(limit).__name__ in _SIGNS]
-    kind = described.__origin__
-    choices = getattr(kind, "__args__", ())
-    allowed = " | ".join(str(c) for c in choices) if choices else " and ".join(
-        f"{_SIGNS[type(limit).__name__]} {_bound(limit):g}"
-        for limit in field.metadata
-        if type(limit).__name__ in _SIGNS
-    )
-    if described is not annotation:
-        allowed = f"{allowed} or null"
-    return field.description, allowed if choices or limits else allowed
+def _meaning(field: FieldInfo) -> tuple[str, str]:
+    """Meaning and allowed values of a setting."""
+    kinds = get_args(field.annotation) or (field.annotation,)
+    if get_origin(field.annotation) is Literal:
+        allowed = " | ".join(str(choice) for choice in kinds)
+    else:
+        allowed = " and ".join(
+            f"{sign} {getattr(limit, bound):g}"
+            for limit in field.metadata
+            for bound, sign in _SIGNS.items()
+            if hasattr(limit, bound)
+        )
+    if type(None) in kinds:
+        allowed += " or null"
+    return field.description or "", allowed
 
 
-_SIGNS = {"Gt": ">", "Ge": ">=", "Lt": "<", "Le": "<="}
-
-
-def _bound(limit) -> float:
-    return next(getattr(limit, name) for name in ("gt", "ge", "lt", "le") if hasattr(limit, name))
+_SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 
 
 def status_command(arguments: list[str]) -> int:
@@ -130,9 +129,9 @@ def status_command(arguments: list[str]) -> int:
         table.add_column(heading)
     counts: Counter[str] = Counter()
     for path in sorted(runs.glob("*.nc")):
-        outcome, seconds, note = _glance(path)
+        outcome, seconds, message = _glance(path)
         counts[outcome] += 1
-        table.add_row(path.stem, outcome, seconds, note)
+        table.add_row(path.stem, outcome, seconds, message)
     for path in sorted(runs.glob("*.running.json")):
         note = read_marker(path)
         if note:

@@ -3,39 +3,33 @@
 Values live in `conf/`; here stand types, ranges, units and meanings, which `sphstudy describe` prints.
 """
 
-from typing import Annotated
+from typing import Any, TypeVar, dataclass_transform
 
 from pydantic import ConfigDict, Field
 from pydantic.dataclasses import dataclass as _dataclass
 
+T = TypeVar("T")
 _STRICT = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
-def parameters(cls):
-    """Class decorator: a frozen, keyword-only dataclass that refuses unknown keys, NaN, infinity."""
-    return _dataclass(frozen=True, kw_only=True, config=_STRICT)(cls)
-
-
-def number(meaning: str, unit: str = "1", **limits):
+def number(meaning: str, unit: str = "1", **limits: float) -> Any:
     """A float with meaning, unit and limits (gt, ge, lt, le)."""
-    return Annotated[float, Field(description=f"{meaning} [{unit}]", **limits)]
+    return Field(description=f"{meaning} [{unit}]", **limits)  # type: ignore[call-overload]
 
 
-def count(meaning: str, **limits):
+def count(meaning: str, **limits: int) -> Any:
     """A whole number with meaning and limits."""
-    return Annotated[int, Field(description=meaning, strict=True, **limits)]
+    return Field(description=meaning, strict=True, **limits)  # type: ignore[call-overload]
 
 
-def text(meaning: str):
-    """Free text with a meaning."""
-    return Annotated[str, Field(description=meaning)]
+def described(meaning: str) -> Any:
+    """Anything else with a meaning: text, choices (Literal), switches, lists."""
+    return Field(description=meaning)
 
 
-def optional(kind):
-    """The same, or null."""
-    return kind | None
-
-
-def described(kind, meaning: str):
-    """Any type with a meaning: choices (Literal), switches, lists."""
-    return Annotated[kind, Field(description=meaning)]
+@dataclass_transform(
+    frozen_default=True, kw_only_default=True, field_specifiers=(number, count, described)
+)
+def parameters(cls: type[T]) -> type[T]:
+    """Class decorator: a frozen, keyword-only dataclass that refuses unknown keys, NaN, infinity."""
+    return _dataclass(frozen=True, kw_only=True, config=_STRICT)(cls)  # type: ignore[return-value]

@@ -1,11 +1,12 @@
 """The store: one netCDF file a run, named by what determines its numbers, written atomically.
 
-    <results>/runs/<label>-<key>.nc             the record
-    <results>/runs/<label>-<key>.running.json   while it is being computed
-    <results>/runs/<label>-<key>.log            traceback of a failed run
+<results>/runs/<label>-<key>.nc             the record
+<results>/runs/<label>-<key>.running.json   while it is being computed
+<results>/runs/<label>-<key>.log            traceback of a failed run
 """
 
 import os
+import sys
 import tempfile
 from pathlib import Path
 
@@ -72,7 +73,7 @@ def read(path: Path) -> xr.Dataset | None:
     except (OSError, ValueError, RuntimeError) as error:
         aside = path.with_suffix(".unreadable")
         os.replace(path, aside)
-        print(f"{path.name}: unreadable ({error}); set aside as {aside.name}")
+        print(f"{path.name}: unreadable ({error}); set aside as {aside.name}", file=sys.stderr)
         return None
 
 

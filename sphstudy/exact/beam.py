@@ -6,14 +6,12 @@ ROOT = 1.8751
 """α0, first root of cos α cosh α = -1, with the digits that the thesis prints."""
 
 
-def fundamental_frequency(
-    youngs_modulus: float, density: float, length: float, height: float
-) -> float:
+def fundamental_frequency(youngs_modulus: float, density: float, length: float, height: float) -> float:
     """ω0 = (α0/L)² D √(E/(12ρ)) of a clamped-free beam of full height D [rad/s] (3.1)."""
     return (ROOT / length) ** 2 * height * np.sqrt(youngs_modulus / (12.0 * density))
 
 
-def mode_shape(x: np.ndarray, length: float) -> np.ndarray:
+def mode_shape(x: np.ndarray | float, length: float) -> np.ndarray:
     """Shape of the lowest clamped-free mode, 1 at x = length (3.2); x [N] (m)."""
     cosines = np.cos(ROOT) + np.cosh(ROOT)
     sines = np.sin(ROOT) + np.sinh(ROOT)
@@ -25,9 +23,7 @@ def mode_shape(x: np.ndarray, length: float) -> np.ndarray:
     return shape(np.asarray(x)) / shape(length)
 
 
-def bent_centreline(
-    x: np.ndarray, end_displacement: float, length: float, spacing: float
-) -> np.ndarray:
+def bent_centreline(x: np.ndarray, end_displacement: float, length: float, spacing: float) -> np.ndarray:
     """u_y(x) [m] of a clamped beam whose last particles, at length - spacing/2, are moved by u_p.
 
     u_p/(2β³) ((ξ-α)³ - 3β²(ξ-α) + 2β³), ξ = (L-x)/L, α = Δx/(2L), β = 1-α (thesis 3.2).

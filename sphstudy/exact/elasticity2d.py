@@ -46,9 +46,7 @@ def plate_frequency(length: float, height: float, material: Material) -> Referen
 def bent_plate(length: float, height: float, material: Material, deflection: float) -> BentPlate:
     """Statics of a plate clamped at x = 0, u_y = deflection (m) and u_x free on x = length."""
     coarse, fine = (_bent(length, height, material, deflection, n) for n in _MESHES)
-    return BentPlate(
-        _reference(coarse[0], fine[0]), _reference(coarse[1], fine[1]), fine[2], fine[3]
-    )
+    return BentPlate(_reference(coarse[0], fine[0]), _reference(coarse[1], fine[1]), fine[2], fine[3])
 
 
 def _reference(coarse: float, fine: float) -> Reference:

@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from sphstudy.parameters import count, described, number, parameters, text
+from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Problem
 from sphstudy.sph import kernel
 from sphstudy.sph.artificial_stress import ArtificialStress
@@ -30,31 +30,28 @@ BYTES_PER_PAIR = 24
 class Parameters:
     """Every constant and open choice of the thesis formulation."""
 
-    name: text("name of the method")
-    kind: text("module that builds it")
-    xsph: number("µ of the smoothed velocity (2.20); 0: off", ge=0, le=1)
-    viscosity_linear: number("α of the artificial viscosity (2.21)", ge=0)
-    viscosity_quadratic: number("β of the artificial viscosity (2.21)", ge=0)
-    artificial_stress: number("ζ of the artificial stress (2.25); 0: off", ge=0, le=1)
-    artificial_exponent: count("exponent n of f_ij in (2.24)", ge=0, le=15)
-    bulk_modulus: described(
-        Literal["unprimed", "primed"],
+    name: str = described("name of the method")
+    kind: str = described("module that builds it")
+    xsph: float = number("µ of the smoothed velocity (2.20); 0: off", ge=0, le=1)
+    viscosity_linear: float = number("α of the artificial viscosity (2.21)", ge=0)
+    viscosity_quadratic: float = number("β of the artificial viscosity (2.21)", ge=0)
+    artificial_stress: float = number("ζ of the artificial stress (2.25); 0: off", ge=0, le=1)
+    artificial_exponent: int = count("exponent n of f_ij in (2.24)", ge=0, le=15)
+    bulk_modulus: Literal["unprimed", "primed"] = described(
         "K of the sound speed (2.22), hence of the time step: from E, ν or from E', ν'",
     )
-    constrained_smoothing: described(
-        Literal["prescribed", "free"],
+    constrained_smoothing: Literal["prescribed", "free"] = described(
         "smoothed velocity of constrained particles: the prescribed value, or smoothed like any other",
     )
-    prescribe_again: described(bool, "prescribe velocities again after the smearing (2.26)")
-    visibility: described(
-        Literal["inclusive", "exclusive"],
+    prescribe_again: bool = described("prescribe velocities again after the smearing (2.26)")
+    visibility: Literal["inclusive", "exclusive"] = described(
         "does a pair that passes exactly through a crack node see each other (exclusive) or not",
     )
-    visibility_tolerance: number("widening of the visibility test", gt=0, lt=1e-2)
-    retest_visibility: described(
-        bool, "judge visibility in the current positions at every neighbour search, or in the first"
+    visibility_tolerance: float = number("widening of the visibility test", gt=0, lt=1e-2)
+    retest_visibility: bool = described(
+        "judge visibility in the current positions at every neighbour search, or in the first"
     )
-    skin: number("skin of the neighbour list, in particle spacings", gt=0, le=1)
+    skin: float = number("skin of the neighbour list, in particle spacings", gt=0, le=1)
 
 
 def lattice_neighbours(h: float) -> int:
@@ -127,12 +124,8 @@ def model(problem: Problem, config, crack_nodes: int) -> Model:
         prescribe_smoothed=method.constrained_smoothing == "prescribed",
         prescribe_again=method.prescribe_again,
         xsph=method.xsph or None,
-        viscosity=Viscosity(method.viscosity_linear, method.viscosity_quadratic)
-        if viscous
-        else None,
-        artificial=ArtificialStress(
-            method.artificial_stress, method.artificial_exponent, spacing_kernel
-        )
+        viscosity=Viscosity(method.viscosity_linear, method.viscosity_quadratic) if viscous else None,
+        artificial=ArtificialStress(method.artificial_stress, method.artificial_exponent, spacing_kernel)
         if method.artificial_stress > 0.0
         else None,
         damping=config.solve.damping or None,

@@ -105,7 +105,8 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
         length = "a" if k == 0 else f"a + {k}Δx"
         metrics[f"U{k}"] = Metric(energy, "J m-1", f"strain energy with crack length {length}")
     if len(energies) == 3:
-        g1 = propagated_release_rate(*energies, float(run["spacing_x"]))
+        u0, u1, u2 = energies
+        g1 = propagated_release_rate(u0, u1, u2, float(run["spacing_x"]))
         metrics["G1"] = Metric(g1, g_units, "energy release rate by propagation (3.24)")
         metrics["G1_error"] = Metric(g1 / exact - 1.0, "1", "relative error of G1")
     return metrics

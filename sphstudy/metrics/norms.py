@@ -1,4 +1,4 @@
-"""Error norms of displacement and stress against Williams' field, whole body and away from frame and tip."""
+"""Error norms of displacement and stress against Williams' field, whole and away from frame and tip."""
 
 from typing import NamedTuple
 
@@ -39,7 +39,7 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     displacement = williams.displacement(scene.mode, x0, y0, scene.K, scene.E, scene.nu)
     exact = (*displacement, *williams.stress(scene.mode, x0, y0, scene.K))
     inner = (run["tag_frame"].values == 0) & (run["tag_tip"].values == 0)
-    metrics = {}
+    metrics: dict[str, Metric] = {}
     for (name, values), reference in zip(computed.items(), exact, strict=True):
         unit = "m" if name.startswith("u_") else "Pa"
         squared = f"{unit}2"

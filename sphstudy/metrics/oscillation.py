@@ -59,7 +59,9 @@ def fit_damped_sine(time: np.ndarray, displacement: np.ndarray, omega_guess: flo
     half = _TWO_SIGMA * np.sqrt(np.diag(covariance)) * (size, omega_guess, omega_guess)
     amplitude, decay, omega = best.x * (size, omega_guess, omega_guess)
     residual = np.sqrt(2.0 * best.cost / time.size) / abs(best.x[0])
-    return DampedSine(amplitude, decay, omega, *(float(h) for h in half), float(residual))
+    return DampedSine(
+        amplitude, decay, omega, float(half[0]), float(half[1]), float(half[2]), float(residual)
+    )
 
 
 def _cost(result) -> float:
@@ -95,17 +97,13 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
             plate.error, "rad s-1", "error estimate of that reference from mesh refinement"
         ),
         "amplitude": Metric(fit.amplitude, "m", "amplitude A of the fit"),
-        "amplitude_interval": Metric(
-            fit.amplitude_interval, "m", "half-width of the 95 % interval of A"
-        ),
+        "amplitude_interval": Metric(fit.amplitude_interval, "m", "half-width of the 95 % interval of A"),
         "amplitude_error": Metric(fit.amplitude / target - 1.0, "1", "relative error of A"),
         "largest_displacement": Metric(float(np.abs(u_y).max()), "m", "largest |u_y| of the tip"),
         "amplitude_frequency_product": Metric(
             fit.amplitude * fit.omega / speed, "1", "A ω / v_tip(0): 1 without loss of energy"
         ),
         "decay_rate": Metric(fit.decay, "s-1", "decay rate κ of the fit"),
-        "decay_rate_interval": Metric(
-            fit.decay_interval, "s-1", "half-width of the 95 % interval of κ"
-        ),
+        "decay_rate_interval": Metric(fit.decay_interval, "s-1", "half-width of the 95 % interval of κ"),
         "fit_residual": Metric(fit.residual, "1", "rms residual of the fit over A"),
     }

@@ -24,8 +24,8 @@ HEADLINE = (
 class Parameters(PlateParameters):
     """The plate, the deflection of its end, and when it is looked at."""
 
-    deflection: number("u_y of the last column, in units of L", gt=-0.5, lt=0.5)
-    end_time: number("time at which the state is measured", "s", gt=0)
+    deflection: float = number("u_y of the last column, in units of L", gt=-0.5, lt=0.5)
+    end_time: float = number("time at which the state is measured", "s", gt=0)
 
 
 def build(config) -> Problem:

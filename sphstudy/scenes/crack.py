@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from sphstudy.exact import williams
-from sphstudy.parameters import count, described, number, parameters, text
+from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Body, Problem, Stage, lattice
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
@@ -32,30 +32,30 @@ HEADLINE = (
 class Parameters:
     """A square of `n` by `n` particles (even: the tip lies between columns)."""
 
-    name: text("name of the scene")
-    kind: text("module that builds it")
-    mode: described(Literal[1, 2], "1: opening, 2: sliding")
-    E: number("Young's modulus", "Pa", gt=0)
-    nu: number("Poisson's ratio", gt=-1, lt=0.5)
-    rho: number("density", "kg/m3", gt=0)
-    L: number("side of the square", "m", gt=0)
-    K: number("stress intensity factor of the prescribed field", "Pa m0.5", gt=0)
-    plane: described(Literal["stress"], "plane stress: the exact field is written for it")
-    frame_layers: count("layers of particles, from the edge inwards, that are driven", ge=1)
-    extensions: count("how often the crack is opened by one spacing (2 for G1)", ge=0, le=2)
-    energy_constants: described(
-        Literal["unprimed", "primed"],
+    name: str = described("name of the scene")
+    kind: str = described("module that builds it")
+    mode: Literal[1, 2] = described("1: opening, 2: sliding")
+    E: float = number("Young's modulus", "Pa", gt=0)
+    nu: float = number("Poisson's ratio", gt=-1, lt=0.5)
+    rho: float = number("density", "kg/m3", gt=0)
+    L: float = number("side of the square", "m", gt=0)
+    K: float = number("stress intensity factor of the prescribed field", "Pa m0.5", gt=0)
+    plane: Literal["stress"] = described("plane stress: the exact field is written for it")
+    frame_layers: int = count("layers of particles, from the edge inwards, that are driven", ge=1)
+    extensions: int = count("how often the crack is opened by one spacing (2 for G1)", ge=0, le=2)
+    energy_constants: Literal["unprimed", "primed"] = described(
         "strains of the energy (3.18) from E and ν, or from the thesis's E' and ν'",
     )
 
 
 def check(config) -> Iterator[str]:
     """Complaints about the resolution."""
+    scene = config.scene.name
     if config.n % 2:
-        yield f"n={config.n}: must be even (the crack runs between rows, its tip between columns)"
+        yield f"n={config.n}: must be even in {scene} (crack between rows, tip between columns)"
     least = 2 * (config.scene.frame_layers + config.scene.extensions + 2)
     if config.n < least:
-        yield f"n={config.n}: must be at least {least} (frame, tip and extensions need the room)"
+        yield f"n={config.n}: must be at least {least} in {scene} (for frame, tip and extensions)"
 
 
 def particles(config) -> int:

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from sphstudy.exact import beam
-from sphstudy.parameters import count, described, number, parameters, text
+from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Body, Problem, Stage, lattice
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
@@ -26,35 +26,35 @@ HEADLINE = (
 class PlateParameters:
     """A plate with `n` rows (odd: the centreline carries particles) and slenderness·n columns."""
 
-    name: text("name of the scene")
-    kind: text("module that builds it")
-    E: number("Young's modulus", "Pa", gt=0)
-    nu: number("Poisson's ratio", gt=-1, lt=0.5)
-    rho: number("density", "kg/m3", gt=0)
-    L: number("length", "m", gt=0)
-    slenderness: count("length over height; columns per row", ge=2)
-    plane: described(Literal["strain", "stress"], "plane strain or plane stress")
-    columns: described(
-        Literal["linspace", "spacing"],
+    name: str = described("name of the scene")
+    kind: str = described("module that builds it")
+    E: float = number("Young's modulus", "Pa", gt=0)
+    nu: float = number("Poisson's ratio", gt=-1, lt=0.5)
+    rho: float = number("density", "kg/m3", gt=0)
+    L: float = number("length", "m", gt=0)
+    slenderness: int = count("length over height; columns per row", ge=2)
+    plane: Literal["strain", "stress"] = described("plane strain or plane stress")
+    columns: Literal["linspace", "spacing"] = described(
         "columns from 0 to L - Δx/2 evenly (Δx = L/(12n - 1/2)), or at kΔy, half a cell short of L",
     )
-    clamped_columns: count("columns of particles held at the wall, the last at x = 0", ge=1, le=8)
+    clamped_columns: int = count("columns of particles held at the wall, the last at x = 0", ge=1, le=8)
 
 
 @parameters
 class Parameters(PlateParameters):
     """The plate and its first push."""
 
-    H0: number("amplitude of the tip, in units of L", gt=0, lt=1)
-    periods: number("length of the run, in periods of the Euler-Bernoulli beam", gt=0)
+    H0: float = number("amplitude of the tip, in units of L", gt=0, lt=1)
+    periods: float = number("length of the run, in periods of the Euler-Bernoulli beam", gt=0)
 
 
 def check(config) -> Iterator[str]:
     """Complaints about the resolution."""
+    scene = config.scene.name
     if config.n % 2 == 0:
-        yield f"n={config.n}: must be odd (the tracked particle and the centreline sit at y = 0)"
+        yield f"n={config.n}: must be odd in {scene} (tracked particle and centreline sit at y = 0)"
     if config.n < 3:
-        yield f"n={config.n}: must be at least 3 rows"
+        yield f"n={config.n}: must be at least 3 in {scene}"
 
 
 def particles(config) -> int:
@@ -68,10 +68,7 @@ def plate_body(config) -> Body:
     height = scene.L / scene.slenderness
     spacing_y = height / rows
     columns = scene.slenderness * rows
-    if scene.columns == "linspace":
-        spacing_x = scene.L / (columns - 0.5)
-    else:
-        spacing_x = spacing_y
+    spacing_x = scene.L / (columns - 0.5) if scene.columns == "linspace" else spacing_y
     x = spacing_x * np.arange(1 - scene.clamped_columns, columns)
     y = spacing_y * (np.arange(rows) - rows // 2)
     grid_x, grid_y = lattice(x, y)

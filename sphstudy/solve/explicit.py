@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from sphstudy.parameters import count, number, optional, parameters, text
+from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Problem, Stage
+from sphstudy.solve.heun import advance, buffers
 from sphstudy.sph import invariants, neighbours
 from sphstudy.sph.updated_lagrangian import RHO, STATE_ROWS, VX, VY, X, Y, build_neighbours, rates
-from sphstudy.solve.heun import advance, buffers
 
 CHUNK_SECONDS = 0.25
 """Aim for the length of one compiled call: signals, progress and limits act between calls."""
@@ -24,18 +24,18 @@ RUNAWAY = 10.0
 class Parameters:
     """Time stepping and its protocol of loading and settling."""
 
-    name: text("name of the solver")
-    courant: number("C of the time step Δt = C Δ/c0 (2.27)", gt=0)
-    damping: number("velocity damping γ (2.23)", "1/s", ge=0)
-    smoothing: number("smearing of the velocity η (2.26)", ge=0, le=1)
-    load_steps: count("loading steps N (3.4)", ge=1)
-    load_time: optional(number("loading time; replaces load_steps if given", "s", gt=0))
-    settle_steps: count("steps after loading", ge=1)
-    extend_steps: count("steps after each extension of the crack", ge=1)
-    settle_ratio: optional(
-        number("end settling when √Σv² is below so much of its value after loading", gt=0, lt=1)
+    name: str = described("name of the solver")
+    courant: float = number("C of the time step Δt = C Δ/c0 (2.27)", gt=0)
+    damping: float = number("velocity damping γ (2.23)", "1/s", ge=0)
+    smoothing: float = number("smearing of the velocity η (2.26)", ge=0, le=1)
+    load_steps: int = count("loading steps N (3.4)", ge=1)
+    load_time: float | None = number("loading time; replaces load_steps if given", "s", gt=0)
+    settle_steps: int = count("steps after loading", ge=1)
+    extend_steps: int = count("steps after each extension of the crack", ge=1)
+    settle_ratio: float | None = number(
+        "end settling when √Σv² is below so much of its value after loading", gt=0, lt=1
     )
-    equilibrium_ratio: number("what counts as equilibrium reached, the same ratio", gt=0, lt=1)
+    equilibrium_ratio: float = number("what counts as equilibrium reached, the same ratio", gt=0, lt=1)
 
 
 @dataclass
@@ -73,7 +73,7 @@ def plan(stages: tuple[Stage, ...], parameters: Parameters, dt: float) -> list[i
         load = math.ceil(parameters.load_time / dt)
     steps: list[int] = []
     for stage in stages:
-        if stage.action == "run":
+        if stage.duration is not None:
             steps.append(math.ceil(stage.duration / dt))
         elif stage.action == "load":
             steps.append(load)
@@ -141,7 +141,7 @@ class Run:
         self.model = model
         self.amplitude_rate = 1.0 / ((end - step) * self.dt) if stage.action == "load" else 0.0
         self.pairs = build_neighbours(model, self.state[X], self.state[Y])
-        self.solution.pairs = max(self.solution.pairs, self.pairs.count)
+        self.solution.pairs = max(self.solution.pairs, self.pairs.total)
         self.memory = buffers(model, self.state.shape[1])
         ratio = self.config.solve.settle_ratio if stage.action == "settle" else None
         while step < end:
@@ -222,8 +222,7 @@ class Run:
         indicator = "a speed beyond the limit or a density ≤ 0" if finite else "a non-finite value"
         self.solution.outcome = "diverged"
         self.solution.message = (
-            f"{indicator} at step {step} of {self.total} (t = {step * self.dt:.6g} s, "
-            f"stage {stage.name})"
+            f"{indicator} at step {step} of {self.total} (t = {step * self.dt:.6g} s, stage {stage.name})"
         )
 
 

@@ -72,8 +72,6 @@ def line_of_sight(crack, x, y):
 def visible(ax, ay, bx, by, node_x, node_y, tolerance):
     """Whether a and b see each other past the polyline through the nodes [K]."""
     for k in range(node_x.size - 1):
-        if crosses(
-            ax, ay, bx, by, node_x[k], node_y[k], node_x[k + 1], node_y[k + 1], tolerance
-        ):
+        if crosses(ax, ay, bx, by, node_x[k], node_y[k], node_x[k + 1], node_y[k + 1], tolerance):
             return False
     return True

@@ -32,7 +32,7 @@ BLOCK = 4096
 class Neighbours(NamedTuple):
     """Runs: pairs (start + k, start + offset + k), k < length. Singles: (first, second).
 
-    `count`: pairs in all, without those that only bridge gaps. `built_x`, `built_y` [N]: positions (m)
+    `total`: pairs in all, without those that only bridge gaps. `built_x`, `built_y` [N]: positions (m)
     for which the list was built.
     """
 
@@ -41,7 +41,7 @@ class Neighbours(NamedTuple):
     length: np.ndarray
     first: np.ndarray
     second: np.ndarray
-    count: int
+    total: int
     built_x: np.ndarray
     built_y: np.ndarray
 
@@ -96,9 +96,7 @@ def _pairs(x, y, reach, crack):
                     j = order[k]
                     if j <= i or not (x[i] - x[j]) ** 2 + (y[i] - y[j]) ** 2 < reach * reach:
                         continue
-                    if not visible(
-                        seen_x[i], seen_y[i], seen_x[j], seen_y[j], node_x, node_y, tolerance
-                    ):
+                    if not visible(seen_x[i], seen_y[i], seen_x[j], seen_y[j], node_x, node_y, tolerance):
                         continue
                     if found == first.size:
                         first = np.concatenate((first, np.empty_like(first)))

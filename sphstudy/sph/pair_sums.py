@@ -247,5 +247,3 @@ def sum_momentum(model, pairs, work):
             for row in range(3):
                 sums[3 + row, i] += mass[j] * specific[j] * terms[2 + row, k]
                 sums[3 + row, j] += mass[i] * specific[i] * terms[2 + row, k]
-
-

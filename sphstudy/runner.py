@@ -5,6 +5,7 @@ import resource
 import sys
 import time
 import traceback
+from typing import Any
 
 import xarray as xr
 from omegaconf import DictConfig, OmegaConf
@@ -54,9 +55,7 @@ def _solved(config: RunConfig, marker: Marker) -> xr.Dataset:
         "peak_memory": Metric(_peak_memory(), "byte", "peak memory of the process"),
     }
     run = record.fields(problem, solution)
-    run = record.with_outcome(
-        run, solution.outcome, solution.message, cost, _attributes(config)
-    )
+    run = record.with_outcome(run, solution.outcome, solution.message, cost, _attributes(config))
     return measured(run, config)
 
 
@@ -86,7 +85,7 @@ def _peak_memory() -> float:
 
 def task(composed: DictConfig) -> str:
     """Hydra's task: one point of a sweep, in whichever process the launcher chose."""
-    values = OmegaConf.to_container(composed, resolve=True)
+    values: Any = OmegaConf.to_container(composed, resolve=True)
     store = Store(values.pop("results"))
     run = run_point(validate(values), store)
     return record.STATUS[int(run["status"])]

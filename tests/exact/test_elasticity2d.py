@@ -1,0 +1,56 @@
+"""The finite-element references against published values and the slender limit."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import make_interp_spline
+
+from sphstudy.exact import beam, elasticity2d
+from sphstudy.exact.elasticity2d import bent_plate, plate_frequency
+from sphstudy.sph.material import Material
+
+
+# From quadratic elements on two meshes that agreed to 1e-5; the last two are printed with fewer digits.
+@pytest.mark.parametrize(
+    ("plane", "nu", "omega", "tolerance"),
+    [
+        ("strain", 0.3, 1.003081, 1e-5),
+        ("stress", 0.3, 0.956428, 1e-5),
+        ("strain", 0.45, 1.07459, 2e-5),
+        ("strain", 0.49, 1.1026, 6e-5),
+    ],
+)
+def test_frequency_of_the_thesis_plate(plane, nu, omega, tolerance):
+    reference = plate_frequency(1.0, 1.0 / 12.0, Material(1e6, nu, 7750.0, plane))
+    assert reference.value == pytest.approx(omega, abs=tolerance)
+
+
+@pytest.mark.parametrize("nu", [0.3, 0.49])
+def test_error_estimate_bounds_the_distance_to_a_finer_mesh(nu):
+    material = Material(1e6, nu, 7750.0, "strain")
+    reference = plate_frequency(1.0, 1.0 / 12.0, material)
+    finer = elasticity2d._frequency(1.0, 1.0 / 12.0, material, 24)
+    assert 0.0 < abs(reference.value - finer) < reference.error < 2e-4 * finer
+
+
+def test_slender_plate_in_plane_stress_is_a_beam():
+    plate = plate_frequency(1.0, 0.01, Material(1e6, 0.3, 7750.0, "stress"))
+    assert plate.value == pytest.approx(beam.fundamental_frequency(1e6, 7750.0, 1.0, 0.01), rel=5e-4)
+
+
+@pytest.mark.parametrize(("plane", "energy"), [("strain", 0.126787), ("stress", 0.115284)])
+def test_energy_of_the_bent_plate(plane, energy):
+    bent = bent_plate(1.0, 1.0 / 12.0, Material(1e6, 0.3, 7750.0, plane), -0.04)
+    assert bent.strain_energy.value == pytest.approx(energy, rel=5e-5)
+    assert bent.strain_energy.error < 1e-4 * energy
+
+
+def test_centreline_of_the_bent_plate():
+    bent = bent_plate(1.0, 1.0 / 12.0, Material(1e6, 0.3, 7750.0, "strain"), -0.04)
+    u_y = make_interp_spline(bent.x, bent.u_y)([0.0, 0.25, 0.5, 0.75, 1.0])
+    expected = [0.0, -3.44952e-3, -1.251783e-2, -2.532438e-2, -0.04]
+    np.testing.assert_allclose(u_y, expected, atol=1e-6)
+
+
+def test_end_angle_tends_to_the_beam():
+    bent = bent_plate(1.0, 0.01, Material(1e6, 0.3, 7750.0, "stress"), -0.01)
+    assert bent.end_angle.value == pytest.approx(np.arctan(beam.end_angle(-0.01, 1.0, 0.0)), rel=1e-3)

@@ -6,22 +6,23 @@ from numba.core import event
 
 
 class _Listener(event.Listener):
-    """Adds up the outermost compilation events of this process."""
+    """Adds up the outermost compilation events of this process, wall and CPU time."""
 
     def __init__(self) -> None:
-        self.total = 0.0
+        self.wall = self.cpu = 0.0
         self._depth = 0
-        self._began = 0.0
+        self._began = (0.0, 0.0)
 
     def on_start(self, event) -> None:
         if self._depth == 0:
-            self._began = time.perf_counter()
+            self._began = (time.perf_counter(), time.process_time())
         self._depth += 1
 
     def on_end(self, event) -> None:
         self._depth -= 1
         if self._depth == 0:
-            self.total += time.perf_counter() - self._began
+            self.wall += time.perf_counter() - self._began[0]
+            self.cpu += time.process_time() - self._began[1]
 
 
 _LISTENER = _Listener()
@@ -29,13 +30,14 @@ event.register("numba:compile", _LISTENER)
 
 
 class CompileTimer:
-    """Seconds spent compiling inside a `with` block (nearly 0 from a warm cache)."""
+    """Seconds spent compiling inside a `with` block, 0 from a warm cache: of wall and of CPU time."""
 
-    seconds = 0.0
+    wall = cpu = 0.0
 
     def __enter__(self) -> "CompileTimer":
-        self._before = _LISTENER.total
+        self._before = (_LISTENER.wall, _LISTENER.cpu)
         return self
 
     def __exit__(self, *exception) -> None:
-        self.seconds = _LISTENER.total - self._before
+        self.wall = _LISTENER.wall - self._before[0]
+        self.cpu = _LISTENER.cpu - self._before[1]

@@ -68,7 +68,7 @@ def fields(problem: Problem, solution: Solution) -> xr.Dataset:
     }
     for name, mask in body.tags.items():
         variables[f"tag_{name}"] = _flags(body.x.size, np.flatnonzero(mask), f"tag: {name}")
-    state = np.array([s.state for s in snapshots]).reshape(len(snapshots), len(_FIELDS), -1)
+    state = np.array([s.state for s in snapshots]).reshape(len(snapshots), len(_FIELDS), body.x.size)
     for row, (name, units, long_name) in enumerate(_FIELDS):
         variables[name] = _variable((time, particle), state[:, row], units, long_name)
     history = np.array(solution.history).reshape(-1, len(HISTORY))

@@ -49,7 +49,7 @@ def load(name: str) -> Study:
         values = {"blocks": [], "include": [], **yaml.safe_load(path.read_text())}
         return TypeAdapter(Study).validate_python(values)
     except (yaml.YAMLError, TypeError) as error:
-        raise ConfigurationError([f"{path.name}: {str(error).splitlines()[0]}"]) from None
+        raise ConfigurationError([f"{path.name}: {' '.join(str(error).split())}"]) from None
     except ValidationError as error:
         raise ConfigurationError(
             [f"{path.name}: {'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors()]

@@ -5,15 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from scipy.optimize import least_squares
+from scipy.special import stdtrit
 
 from sphstudy.exact import beam
 from sphstudy.exact.elasticity2d import plate_frequency
 from sphstudy.metrics.metric import Metric
 from sphstudy.scenes.plate import represented_length
 from sphstudy.sph.material import Material
-
-_TWO_SIGMA = 1.959964
-"""Half-width of a 95 % interval in standard deviations."""
 
 
 @dataclass(frozen=True)
@@ -36,36 +34,60 @@ class DampedSine:
 def fit_damped_sine(time: np.ndarray, displacement: np.ndarray, omega_guess: float) -> DampedSine:
     """Least-squares fit of (3.3) to samples; time [M] (s), displacement [M] (m), guess (rad/s).
 
-    Raises ValueError if there are fewer than five samples, or any that is not finite, or none but zeros.
+    Finds any ω between 0.3 and 3 times the guess, and returns it positive. Raises ValueError if there
+    are fewer than five samples, or any that is not finite, or none but zeros, or if they span no time.
     """
     time, displacement = np.asarray(time, float), np.asarray(displacement, float)
-    if time.size < 5 or time.shape != displacement.shape:
+    if time.ndim != 1 or time.size < 5 or time.shape != displacement.shape:
         raise ValueError(f"{time.size} samples: at least 5 times with as many displacements needed")
     if not (np.isfinite(time).all() and np.isfinite(displacement).all()):
         raise ValueError("samples that are not finite")
+    if not (np.isfinite(omega_guess) and omega_guess > 0.0):
+        raise ValueError(f"omega_guess = {omega_guess}: must be positive")
     size = float(np.abs(displacement).max())
     if size == 0.0:
         raise ValueError("nothing moves")
+    if np.ptp(time) == 0.0:
+        raise ValueError("samples that span no time")
     scaled_time, scaled = time * omega_guess, displacement / size
 
     def misfit(p):
         return p[0] * np.exp(-p[1] * scaled_time) * np.sin(p[2] * scaled_time) - scaled
 
-    # A frequency far off has minima of its own: try several starts and keep the best.
-    starts = ([1.0, 0.0, ratio] for ratio in (1.0, 0.8, 1.2, 0.6, 1.5))
-    best = min((least_squares(misfit, s, x_scale=(1.0, 0.1, 0.1)) for s in starts), key=_cost)
-    variance = 2.0 * best.cost / max(time.size - 3, 1)
-    covariance = np.linalg.pinv(best.jac.T @ best.jac) * variance
-    half = _TWO_SIGMA * np.sqrt(np.diag(covariance)) * (size, omega_guess, omega_guess)
+    best = least_squares(misfit, _start(scaled_time, scaled), x_scale="jac", xtol=1e-12, ftol=1e-12)
+    freedom = time.size - 3
+    covariance = np.linalg.pinv(best.jac.T @ best.jac) * 2.0 * best.cost / freedom
+    half = stdtrit(freedom, 0.975) * np.sqrt(np.diag(covariance)) * (size, omega_guess, omega_guess)
     amplitude, decay, omega = best.x * (size, omega_guess, omega_guess)
     residual = np.sqrt(2.0 * best.cost / time.size) / abs(best.x[0])
-    return DampedSine(
-        amplitude, decay, omega, float(half[0]), float(half[1]), float(half[2]), float(residual)
-    )
+    intervals = (float(half[0]), float(half[1]), float(half[2]))
+    return DampedSine(float(amplitude), float(decay), float(omega), *intervals, float(residual))
 
 
-def _cost(result) -> float:
-    return result.cost
+def _start(time: np.ndarray, displacement: np.ndarray) -> tuple[float, float, float]:
+    """Best A, κ, ω on a grid, with time in units of 1/guess.
+
+    The misfit has local minima in ω about 2π/span apart, so the grid is finer than that. A enters
+    linearly: its best value for each κ and ω is a projection.
+    """
+    span = np.ptp(time)
+    # Beyond 300 decay times in a record, envelopes would underflow.
+    rates = np.geomspace(0.5 / span, min(1.0, 300.0 / span), 12)
+    decays = np.concatenate((-rates, (0.0,), rates))
+    exponents = -decays[:, None] * time
+    peaks = exponents.max(axis=1)
+    envelopes = np.exp(exponents - peaks[:, None])
+    weights, squares = envelopes * displacement, envelopes**2
+    gain, best = -1.0, (0.0, 0.0, 1.0)
+    for omega in np.arange(0.3, 3.0, min(0.1, 0.5 / span)):
+        sine = np.sin(omega * time)
+        overlaps, norms = weights @ sine, squares @ sine**2
+        gains = overlaps**2 / norms
+        k = int(np.argmax(gains))
+        if gains[k] > gain:
+            gain = gains[k]
+            best = (overlaps[k] / norms[k] * np.exp(-peaks[k]), decays[k], omega)
+    return best
 
 
 def measure(run: xr.Dataset, config) -> dict[str, Metric]:

@@ -54,3 +54,12 @@ def test_centreline_of_the_bent_plate():
 def test_end_angle_tends_to_the_beam():
     bent = bent_plate(1.0, 0.01, Material(1e6, 0.3, 7750.0, "stress"), -0.01)
     assert bent.end_angle.value == pytest.approx(np.arctan(beam.end_angle(-0.01, 1.0, 0.0)), rel=1e-3)
+
+
+# Spectral elements on a mesh graded geometrically towards the clamped corners; angles of the line that
+# fits the end in the mean square over the height.
+@pytest.mark.parametrize(("plane", "angle"), [("strain", -0.05963127), ("stress", -0.05963627)])
+def test_end_angle_weighs_the_end_evenly(plane, angle):
+    bent = bent_plate(1.0, 1.0 / 12.0, Material(1e6, 0.3, 7750.0, plane), -0.04)
+    assert abs(bent.end_angle.value - angle) < bent.end_angle.error
+    assert bent.end_angle.error < 1e-6

@@ -10,8 +10,18 @@ import numpy as np
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Problem, Stage
 from sphstudy.solve.heun import advance, buffers
-from sphstudy.sph import invariants, neighbours
-from sphstudy.sph.updated_lagrangian import RHO, STATE_ROWS, VX, VY, X, Y, build_neighbours, rates
+from sphstudy.sph import invariants
+from sphstudy.sph.updated_lagrangian import (
+    RHO,
+    STATE_ROWS,
+    VX,
+    VY,
+    X,
+    Y,
+    build_neighbours,
+    rates,
+    refresh_neighbours,
+)
 
 CHUNK_SECONDS = 0.25
 """Aim for the length of one compiled call: signals, progress and limits act between calls."""
@@ -132,8 +142,6 @@ class Run:
             self._snapshot(stage.name, step)
             if stage.action == "load":
                 loading_speed = self._system_speed()
-        if step % self.stride:
-            self._sample(step)
         return self.solution
 
     def _run_stage(self, stage: Stage, step: int, end: int, loading_speed: float | None) -> int:
@@ -144,13 +152,18 @@ class Run:
         self.solution.pairs = max(self.solution.pairs, self.pairs.total)
         self.memory = buffers(model, self.state.shape[1])
         ratio = self.config.solve.settle_ratio if stage.action == "settle" else None
+        # Once with this stage's motion of the constraints, again at its end: the power of the constraints
+        # jumps between stages, and its integral must not smear the jump.
+        self._sample(step)
         while step < end:
-            self._record(step)
+            if step in self.requested:
+                self._snapshot(f"t={step * self.dt:.6g}", step)
             stop = self._next_event(step, end)
             step, sound = self._chunked(step, stop)
             if not sound:
                 self._diverged(stage, step)
                 return step
+            self._sample(step)
             if ratio and loading_speed and self._system_speed() < ratio * loading_speed:
                 return step
         return end
@@ -186,16 +199,9 @@ class Run:
                 return step, False
         return step, True
 
-    def _record(self, step: int) -> None:
-        if step % self.stride == 0:
-            self._sample(step)
-        if step in self.requested:
-            self._snapshot(f"t={step * self.dt:.6g}", step)
-
     def _sample(self, step: int) -> None:
-        pairs = self.pairs
-        if neighbours.outdated(pairs, self.state[X], self.state[Y], self.model.skin):
-            pairs = build_neighbours(self.model, self.state[X], self.state[Y])
+        # What is rebuilt here is not handed on: looking must not change what is looked at.
+        pairs = refresh_neighbours(self.model, self.pairs, self.state[X], self.state[Y])
         rates(self.model, self.state, pairs, self.amplitude_rate, self.memory.work, self._rate)
         youngs_modulus, poisson_ratio = energy_compliance(self.problem, self.config)
         totals = invariants.measure(

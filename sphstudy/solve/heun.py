@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 
 from sphstudy.compilation import compiled, compiled_exactly
-from sphstudy.sph import neighbours
 from sphstudy.sph.updated_lagrangian import (
     RHO,
     STATE_ROWS,
@@ -21,9 +20,9 @@ from sphstudy.sph.updated_lagrangian import (
     X,
     Y,
     begin_step,
-    build_neighbours,
     constrain,
     rates,
+    refresh_neighbours,
     workspace,
 )
 
@@ -70,12 +69,13 @@ def advance(model, state, pairs, memory, amplitude_rate, dt, begin, end, speed_l
     for step in range(begin, end):
         if step % CHECK_INTERVAL == 0 and not is_sound(state, speed_limit):
             return step, False, pairs
+        pairs = refresh_neighbours(model, pairs, state[X], state[Y])
         begin_step(model, state, pairs, amplitude_rate, work)
         for stage in range(2):
             trial = state if stage == 0 else memory.predicted
             rate = memory.first if stage == 0 else memory.second
-            if neighbours.outdated(pairs, trial[X], trial[Y], model.skin):
-                pairs = build_neighbours(model, trial[X], trial[Y])
+            if stage == 1:
+                pairs = refresh_neighbours(model, pairs, trial[X], trial[Y])
             rates(model, trial, pairs, amplitude_rate, work, rate)
             constrain(model, rate, work)
             if stage == 0:

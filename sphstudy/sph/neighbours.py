@@ -8,8 +8,8 @@ A run may bridge a short gap, such as the end of a lattice row, with pairs beyon
 for as long as the list is good.
 
 Pairs are found within the support plus a skin. The list is good for as long as no particle has
-moved farther than half the skin, so no pair is ever missed; those in the skin weigh zero. The crack's
-visibility test is made when the list is built.
+moved farther than half the skin, so no pair is ever missed; those in the skin weigh zero. Pairs whose
+sight a crack may cut or free while the list is good are *watched*: `look` tests them at every evaluation.
 """
 
 from typing import NamedTuple
@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sphstudy.compilation import compiled_exactly
-from sphstudy.sph.crack import line_of_sight, visible
+from sphstudy.sph.crack import HIDDEN, IN_DOUBT, line_of_sight, outlook, visible
 
 SHORTEST_RUN = 8
 """Shorter runs go to the singles: their set-up costs more than they save."""
@@ -32,6 +32,8 @@ BLOCK = 4096
 class Neighbours(NamedTuple):
     """Runs: pairs (start + k, start + offset + k), k < length. Singles: (first, second).
 
+    Of the singles, the first `singles[0]` are in force; `look` appends watched pairs to the lasting ones
+    as long as they see each other past the segments watched_low to watched_high of the crack.
     `total`: pairs in all, without those that only bridge gaps. `built_x`, `built_y` [N]: positions (m)
     for which the list was built.
     """
@@ -41,6 +43,11 @@ class Neighbours(NamedTuple):
     length: np.ndarray
     first: np.ndarray
     second: np.ndarray
+    singles: np.ndarray
+    watched_first: np.ndarray
+    watched_second: np.ndarray
+    watched_low: np.ndarray
+    watched_high: np.ndarray
     total: int
     built_x: np.ndarray
     built_y: np.ndarray
@@ -80,11 +87,15 @@ def _cells(x, y, reach):
 
 
 @compiled_exactly
-def _pairs(x, y, reach, crack):
-    """All visible pairs i < j closer than `reach`, ordered by i: two int32 arrays."""
+def _grown(array):
+    return np.concatenate((array, np.empty_like(array)))
+
+
+@compiled_exactly
+def _close_pairs(x, y, reach):
+    """All pairs i < j closer than `reach`, ordered by i: two int32 arrays."""
     count = x.size
     columns, rows, begin, order, cell = _cells(x, y, reach)
-    seen_x, seen_y, node_x, node_y, tolerance = line_of_sight(crack, x, y)
     first = np.empty(16 * count + 16, np.int32)
     second = np.empty(16 * count + 16, np.int32)
     found = 0
@@ -96,15 +107,42 @@ def _pairs(x, y, reach, crack):
                     j = order[k]
                     if j <= i or not (x[i] - x[j]) ** 2 + (y[i] - y[j]) ** 2 < reach * reach:
                         continue
-                    if not visible(seen_x[i], seen_y[i], seen_x[j], seen_y[j], node_x, node_y, tolerance):
-                        continue
                     if found == first.size:
-                        first = np.concatenate((first, np.empty_like(first)))
-                        second = np.concatenate((second, np.empty_like(second)))
+                        first, second = _grown(first), _grown(second)
                     first[found] = i
                     second[found] = j
                     found += 1
     return first[:found], second[:found]
+
+
+@compiled_exactly
+def _sorted_by_sight(first, second, x, y, margin, crack):
+    """Lasting pairs (first, second), and watched ones (first, second, low, high), of all close pairs.
+
+    With a crack frozen in its first configuration nothing is in doubt.
+    """
+    seen_x, seen_y, node_x, node_y, tolerance, frozen = line_of_sight(crack, x, y)
+    lasting = np.ones(first.size, np.bool_)
+    watched = np.zeros(first.size, np.bool_)
+    low, high = np.zeros(first.size, np.int32), np.zeros(first.size, np.int32)
+    if node_x.size > 1:
+        for p in range(first.size):
+            i, j = first[p], second[p]
+            ax, ay, bx, by = seen_x[i], seen_y[i], seen_x[j], seen_y[j]
+            if frozen:
+                lasting[p] = visible(ax, ay, bx, by, node_x, node_y, tolerance)
+            else:
+                verdict, low[p], high[p] = outlook(ax, ay, bx, by, node_x, node_y, tolerance, margin)
+                watched[p] = verdict == IN_DOUBT
+                lasting[p] = not watched[p] and verdict != HIDDEN
+    return (
+        first[lasting],
+        second[lasting],
+        first[watched],
+        second[watched],
+        low[watched],
+        high[watched],
+    )
 
 
 @compiled_exactly
@@ -150,13 +188,19 @@ def _bridges(x, y, reach, first, second, p):
 
 
 @compiled_exactly
-def build(x, y, reach, crack):
-    """Neighbours of the configuration x, y [N] (m): every visible pair closer than `reach` (m).
+def build(x, y, support, skin, crack):
+    """Neighbours of the configuration x, y [N] (m): every pair closer than `support` + `skin` (m).
 
-    `crack` is a Crack or None. Particles at positions that are not finite get no neighbours.
+    `crack` is a Crack or None. Particles at positions that are not finite get no neighbours. Call `look`
+    before the list is used.
     """
-    found_first, found_second = _pairs(x, y, reach, crack)
-    first, second = _sorted_by_offset(found_first, found_second, x.size)
+    reach = support + skin
+    close_first, close_second = _close_pairs(x, y, reach)
+    # Until the list is outdated, no two particles, nor a particle and a node, approach by more than skin.
+    lasting_first, lasting_second, watched_first, watched_second, low_segment, high_segment = (
+        _sorted_by_sight(close_first, close_second, x, y, skin, crack)
+    )
+    first, second = _sorted_by_offset(lasting_first, lasting_second, x.size)
     total = first.size
     start = np.empty(total // SHORTEST_RUN + 1, np.int64)
     offset = np.empty_like(start)
@@ -180,12 +224,34 @@ def build(x, y, reach, crack):
         start[:runs].copy(),
         offset[:runs].copy(),
         length[:runs].copy(),
-        first[single],
-        second[single],
-        total,
+        np.concatenate((first[single], watched_first)),
+        np.concatenate((second[single], watched_second)),
+        np.array([np.count_nonzero(single)]),
+        watched_first,
+        watched_second,
+        low_segment,
+        high_segment,
+        total + watched_first.size,
         x.copy(),
         y.copy(),
     )
+
+
+@compiled_exactly
+def look(pairs, x, y, crack):
+    """Brings the singles in force up to date with the configuration x, y [N] (m)."""
+    if pairs.watched_first.size == 0:
+        return
+    x, y, node_x, node_y, tolerance, _ = line_of_sight(crack, x, y)
+    filled = pairs.first.size - pairs.watched_first.size
+    for w in range(pairs.watched_first.size):
+        i, j = pairs.watched_first[w], pairs.watched_second[w]
+        low, high = pairs.watched_low[w], pairs.watched_high[w] + 1
+        if visible(x[i], y[i], x[j], y[j], node_x[low:high], node_y[low:high], tolerance):
+            pairs.first[filled] = i
+            pairs.second[filled] = j
+            filled += 1
+    pairs.singles[0] = filled
 
 
 @compiled_exactly
@@ -201,8 +267,9 @@ def outdated(neighbours, x, y, skin):
 
 @compiled_exactly
 def as_pairs(neighbours):
-    """The list as two plain arrays of particle indices, runs first, bridging pairs included."""
-    total = neighbours.first.size + neighbours.length.sum()
+    """Pairs in force as two arrays of particle indices, runs first, bridging pairs included."""
+    singles = neighbours.singles[0]
+    total = singles + neighbours.length.sum()
     first, second = np.empty(total, np.int64), np.empty(total, np.int64)
     filled = 0
     for r in range(neighbours.start.size):
@@ -210,6 +277,6 @@ def as_pairs(neighbours):
             first[filled] = neighbours.start[r] + k
             second[filled] = first[filled] + neighbours.offset[r]
             filled += 1
-    first[filled:] = neighbours.first
-    second[filled:] = neighbours.second
+    first[filled:] = neighbours.first[:singles]
+    second[filled:] = neighbours.second[:singles]
     return first, second

@@ -205,8 +205,9 @@ def sum_smoothing(model, pairs, work):
             _add_smoothing(sums, mass[j0 : j0 + count], terms, 1.0, i0, count)
             _add_smoothing(sums, mass[i0 : i0 + count], terms, -1.0, j0, count)
     left, right = np.int64(0), np.int64(BATCH)  # as literals they would compile the terms twice
-    for low in range(0, pairs.first.size, BATCH):
-        count = min(BATCH, pairs.first.size - low)
+    singles = pairs.singles[0]
+    for low in range(0, singles, BATCH):
+        count = min(BATCH, singles - low)
         _gather(data, RHO + 1, pairs, low, count, gathered)
         _smoothing_terms(model, gathered, left, right, count, terms)
         for k in range(count):
@@ -232,8 +233,9 @@ def sum_momentum(model, pairs, work):
             _add_momentum(sums, mass[j0:j1], specific[j0:j1], terms, 1.0, i0, count)
             _add_momentum(sums, mass[i0:i1], specific[i0:i1], terms, -1.0, j0, count)
     left, right = np.int64(0), np.int64(BATCH)  # as literals they would compile the terms twice
-    for low in range(0, pairs.first.size, BATCH):
-        count = min(BATCH, pairs.first.size - low)
+    singles = pairs.singles[0]
+    for low in range(0, singles, BATCH):
+        count = min(BATCH, singles - low)
         _gather(data, data.shape[0], pairs, low, count, gathered)
         _momentum_terms(model, gathered, left, right, count, terms)
         for k in range(count):

@@ -62,8 +62,19 @@ def workspace(model: Model, count: int) -> Workspace:
 @compiled_exactly
 def build_neighbours(model, x, y):
     """Neighbour list of the configuration x, y (m), out to the support plus the skin."""
-    reach = kernel.SUPPORT * model.smoothing_length + model.skin
-    return neighbours.build(x, y, reach, model.crack)
+    support = kernel.SUPPORT * model.smoothing_length
+    pairs = neighbours.build(x, y, support, model.skin, model.crack)
+    neighbours.look(pairs, x, y, model.crack)
+    return pairs
+
+
+@compiled_exactly
+def refresh_neighbours(model, pairs, x, y):
+    """The list, or a new one if some particle moved too far, made good for the configuration x, y (m)."""
+    if neighbours.outdated(pairs, x, y, model.skin):
+        return build_neighbours(model, x, y)
+    neighbours.look(pairs, x, y, model.crack)
+    return pairs
 
 
 @compiled

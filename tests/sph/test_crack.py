@@ -50,10 +50,10 @@ def test_crossing_is_symmetric_and_moves_along(rng):
 def test_nodes_float_half_way_between_their_particles():
     x, y = np.array([0.0, 0.0, 2.0, 3.0]), np.array([-1.0, 1.0, -1.0, 2.0])
     crack = Crack(np.array([0, 2]), np.array([1, 3]))
-    *_, node_x, node_y, _ = line_of_sight(crack, x, y)
+    _, _, node_x, node_y, *_ = line_of_sight(crack, x, y)
     np.testing.assert_array_equal(node_x, [0.0, 2.5])
     np.testing.assert_array_equal(node_y, [0.0, 0.5])
-    *_, moved_x, moved_y, _ = line_of_sight(crack, x + 10.0, y - 3.0)
+    _, _, moved_x, moved_y, *_ = line_of_sight(crack, x + 10.0, y - 3.0)
     np.testing.assert_array_equal(moved_x, node_x + 10.0)
     np.testing.assert_array_equal(moved_y, node_y - 3.0)
 

@@ -103,7 +103,7 @@ def sweep(
 
 
 def _report(dataset: xr.Dataset, path: Path, points: list[Point]) -> int:
-    collect.print_table(dataset, [p.config for p in points])
+    collect.print_tables(dataset, [p.config for p in points])
     print(f"dataset: {path}")
     failed = int((dataset["status"] == STATUS.index("failed")).sum())
     if failed:

@@ -139,27 +139,36 @@ def _name(configs: list[RunConfig]) -> str:
     return f"{scenes}-{methods}-{digest.hexdigest()[:8]}"
 
 
-def print_table(dataset: xr.Dataset, configs: list[RunConfig]) -> None:
-    """The points with outcome, headline metrics and cost, one line each."""
+def print_tables(dataset: xr.Dataset, configs: list[RunConfig]) -> None:
+    """One table a scene: a line a point with outcome, the scene's headline metrics, and cost."""
+    for scene in dict.fromkeys(config.scene.name for config in configs):
+        _print_table(dataset, [config for config in configs if config.scene.name == scene])
+
+
+def _print_table(dataset: xr.Dataset, configs: list[RunConfig]) -> None:
     swept = [str(dimension) for dimension in dataset["status"].dims]
-    headline = dict.fromkeys(
-        name for c in configs for name in scene_module(c.scene.kind).HEADLINE if name in dataset
-    )
-    columns = [*headline, *(c for c in ("cpu_seconds", "steps", "particles") if c in dataset)]
+    wanted = [*scene_module(configs[0].scene.kind).HEADLINE, "cpu_seconds", "steps", "particles"]
+    columns = [name for name in wanted if name in dataset]
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
     for name in (*swept, "status", *columns):
         units = dataset[name].attrs.get("units", "1") if name in columns else "1"
-        table.add_column(name if units == "1" else f"{name}\n({units})", justify="right")
-    frame = dataset.to_dataframe().reset_index()
-    wanted = {tuple(_hashable(c.flat().get(key)) for key in swept) for c in configs}
-    for _, row in frame.iterrows():
-        if tuple(row[key] for key in swept) in wanted:
-            cells = [f"{row[key]:g}" if isinstance(row[key], float) else str(row[key]) for key in swept]
-            table.add_row(*cells, STATUS[int(row["status"])], *(_cell(row[c]) for c in columns))
+        heading = name.replace("_", " ")
+        table.add_column(heading if units == "1" else f"{heading} ({units})", justify="right")
+    for config in sorted(configs, key=lambda c: _order(c, swept)):
+        flat = config.flat()
+        point = dataset.sel({key: _hashable(flat.get(key)) for key in swept})
+        place = [f"{flat[key]:g}" if isinstance(flat[key], float) else str(flat[key]) for key in swept]
+        table.add_row(*place, STATUS[int(point["status"])], *(_cell(float(point[c])) for c in columns))
     console = Console()
     if not console.is_terminal:
-        console = Console(width=200)
+        console = Console(width=400)
     console.print(table)
+
+
+def _order(config: RunConfig, swept: list[str]) -> tuple:
+    """Sorts points by the swept keys: text before numbers, each in its own order."""
+    values = (_hashable(config.flat().get(key)) for key in swept)
+    return tuple((1, value) if isinstance(value, int | float) else (0, value) for value in values)
 
 
 def _cell(value: float) -> str:

@@ -9,8 +9,9 @@ import numpy as np
 
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Problem, Stage
-from sphstudy.solve.heun import advance, buffers
+from sphstudy.solve.heun import OUTDATED, UNSOUND, advance, buffers
 from sphstudy.sph import invariants
+from sphstudy.sph.neighbours import look, outdated
 from sphstudy.sph.updated_lagrangian import (
     RHO,
     STATE_ROWS,
@@ -19,15 +20,12 @@ from sphstudy.sph.updated_lagrangian import (
     X,
     Y,
     build_neighbours,
+    fastest,
     rates,
-    refresh_neighbours,
 )
 
 CHUNK_SECONDS = 0.25
 """Aim for the length of one compiled call: signals, progress and limits act between calls."""
-
-RUNAWAY = 10.0
-"""A particle faster than so many sound speeds has left the solid's physics."""
 
 
 @parameters
@@ -148,9 +146,10 @@ class Run:
         model = self.method.model(self.problem, self.config, stage.crack_nodes)
         self.model = model
         self.amplitude_rate = 1.0 / ((end - step) * self.dt) if stage.action == "load" else 0.0
-        self.pairs = build_neighbours(model, self.state[X], self.state[Y])
-        self.solution.pairs = max(self.solution.pairs, self.pairs.total)
         self.memory = buffers(model, self.state.shape[1])
+        if not self._renew_neighbours():
+            self._diverged(stage, step)
+            return step
         ratio = self.config.solve.settle_ratio if stage.action == "settle" else None
         # Once with this stage's motion of the constraints, again at its end: the power of the constraints
         # jumps between stages, and its integral must not smear the jump.
@@ -174,34 +173,38 @@ class Run:
         return min(events)
 
     def _chunked(self, step: int, stop: int) -> tuple[int, bool]:
-        limit = RUNAWAY * self.wave_speed
         while step < stop:
             chunk = min(step + self._chunk, stop)
             begun = time.perf_counter()
-            reached, sound, self.pairs = advance(
-                self.model,
-                self.state,
-                self.pairs,
-                self.memory,
-                self.amplitude_rate,
-                self.dt,
-                step,
-                chunk,
-                limit,
+            reached, reason = advance(
+                self.model, self.state, self.pairs, self.memory, self.amplitude_rate, self.dt, step, chunk
             )
-            seconds = time.perf_counter() - begun
-            per_step = max(seconds / max(reached - step, 1), 1e-9)
-            # The first call may have compiled: never trust one measurement by more than doubling.
-            self._chunk = int(min(2 * self._chunk, max(1.0, CHUNK_SECONDS / per_step)))
+            if reached > step:
+                per_step = max((time.perf_counter() - begun) / (reached - step), 1e-9)
+                # The first call may have compiled: never trust one measurement by more than doubling.
+                self._chunk = int(min(2 * self._chunk, max(1.0, CHUNK_SECONDS / per_step)))
             step = reached
             self.on_progress(step, self.total)
-            if not sound:
+            if reason == UNSOUND or (reason == OUTDATED and not self._renew_neighbours()):
                 return step, False
         return step, True
 
+    def _renew_neighbours(self) -> bool:
+        """A new neighbour list; False if something moves too fast for any."""
+        stride = self.dt * fastest(self.model, self.state, self.amplitude_rate)
+        pairs = build_neighbours(self.model, self.state, stride)
+        if pairs is None:
+            return False
+        self.pairs = pairs
+        self.solution.pairs = max(self.solution.pairs, pairs.total)
+        return True
+
     def _sample(self, step: int) -> None:
-        # What is rebuilt here is not handed on: looking must not change what is looked at.
-        pairs = refresh_neighbours(self.model, self.pairs, self.state[X], self.state[Y])
+        # A list built here is not handed on: looking must not change what is looked at.
+        pairs = self.pairs
+        if outdated(pairs, self.state[X], self.state[Y], 0.0):
+            pairs = build_neighbours(self.model, self.state) or pairs
+        look(pairs, self.state[X], self.state[Y], self.model.crack)
         rates(self.model, self.state, pairs, self.amplitude_rate, self.memory.work, self._rate)
         youngs_modulus, poisson_ratio = energy_compliance(self.problem, self.config)
         totals = invariants.measure(
@@ -225,7 +228,7 @@ class Run:
 
     def _diverged(self, stage: Stage, step: int) -> None:
         finite = bool(np.isfinite(self.state).all())
-        indicator = "a speed beyond the limit or a density ≤ 0" if finite else "a non-finite value"
+        indicator = "a density ≤ 0 or a step too far" if finite else "a value that is not finite"
         self.solution.outcome = "diverged"
         self.solution.message = (
             f"{indicator} at step {step} of {self.total} (t = {step * self.dt:.6g} s, stage {stage.name})"

@@ -1,33 +1,35 @@
 """Explicit stepping with Heun's method: predictor and trapezoidal corrector (thesis 2.6).
 
 No Python runs inside the time loop. The loop is called in chunks; everything that one step hands to
-the next, the neighbour list included, lives in the arrays passed, so that chunking changes no bit of
-the result.
+the next lives in the arrays passed, so that chunking changes no bit of the result. Between chunks the
+caller renews the neighbour list when told so, which depends on the state alone.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled, compiled_exactly
+from sphstudy.compilation import compiled, compiled_exactly_inner
+from sphstudy.sph.neighbours import look, outdated
 from sphstudy.sph.updated_lagrangian import (
     RHO,
     STATE_ROWS,
-    VX,
-    VY,
     Model,
     Workspace,
     X,
     Y,
     begin_step,
     constrain,
+    fastest,
     rates,
-    refresh_neighbours,
     workspace,
 )
 
 CHECK_INTERVAL = 50
 """Steps between two looks at whether the run is still sound."""
+
+REACHED, UNSOUND, OUTDATED = range(3)
+"""Why `advance` returned: the end, a state that is not sound, a neighbour list that needs renewal."""
 
 
 class Buffers(NamedTuple):
@@ -45,44 +47,46 @@ def buffers(model: Model, count: int) -> Buffers:
     return Buffers(predicted, first, second, workspace(model, count))
 
 
-@compiled_exactly
-def is_sound(state, speed_limit):
-    """Whether everything is finite, densities are positive and no speed exceeds the limit (m/s)."""
+@compiled_exactly_inner
+def is_sound(state):
+    """Whether everything is finite and all densities are positive."""
     for i in range(state.shape[1]):
         total = 0.0
         for row in range(STATE_ROWS):
             total += state[row, i]
-        speed_squared = state[VX, i] ** 2 + state[VY, i] ** 2
-        if not (np.isfinite(total) and state[RHO, i] > 0.0 and speed_squared <= speed_limit**2):
+        if not (np.isfinite(total) and state[RHO, i] > 0.0):
             return False
     return True
 
 
 @compiled
-def advance(model, state, pairs, memory, amplitude_rate, dt, begin, end, speed_limit):
-    """Steps from number `begin` to `end`; returns (steps taken in all, still sound, neighbours).
+def advance(model, state, pairs, memory, amplitude_rate, dt, begin, end):
+    """Steps from number `begin` to `end`; returns (steps taken in all, why it returned).
 
-    `state` [8, N] is updated in place. Prescribed freedoms move with target · `amplitude_rate`.
-    Every CHECK_INTERVAL steps the state is looked at, and stepping ends there if it is not sound.
+    `state` [8, N] is updated in place. Prescribed freedoms move with target · `amplitude_rate`. Before a
+    step in which the neighbour list might miss a pair, and every CHECK_INTERVAL steps if the state is not
+    sound, stepping ends.
     """
-    work = memory.work
+    work, predicted, first, second = memory.work, memory.predicted, memory.first, memory.second
     for step in range(begin, end):
-        if step % CHECK_INTERVAL == 0 and not is_sound(state, speed_limit):
-            return step, False, pairs
-        pairs = refresh_neighbours(model, pairs, state[X], state[Y])
-        begin_step(model, state, pairs, amplitude_rate, work)
+        if step % CHECK_INTERVAL == 0 and not is_sound(state):
+            return step, UNSOUND
+        if outdated(pairs, state[X], state[Y], dt * fastest(model, state, amplitude_rate)):
+            return step, OUTDATED
+        look(pairs, state[X], state[Y], model.crack)
+        begin_step(model.smoothing, model, state, pairs, amplitude_rate, work)
         for stage in range(2):
-            trial = state if stage == 0 else memory.predicted
-            rate = memory.first if stage == 0 else memory.second
+            trial = state if stage == 0 else predicted
+            rate = first if stage == 0 else second
             if stage == 1:
-                pairs = refresh_neighbours(model, pairs, trial[X], trial[Y])
+                look(pairs, trial[X], trial[Y], model.crack)
             rates(model, trial, pairs, amplitude_rate, work, rate)
             constrain(model, rate, work)
             if stage == 0:
                 for row in range(STATE_ROWS):
                     for i in range(state.shape[1]):
-                        memory.predicted[row, i] = state[row, i] + dt * rate[row, i]
+                        predicted[row, i] = state[row, i] + dt * rate[row, i]
         for row in range(STATE_ROWS):
             for i in range(state.shape[1]):
-                state[row, i] += 0.5 * dt * (memory.first[row, i] + memory.second[row, i])
-    return end, is_sound(state, speed_limit), pairs
+                state[row, i] += 0.5 * dt * (first[row, i] + second[row, i])
+    return end, REACHED if is_sound(state) else UNSOUND

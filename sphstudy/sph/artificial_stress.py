@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled
+from sphstudy.compilation import compiled_inner
 
 
 class ArtificialStress(NamedTuple):
@@ -18,7 +18,7 @@ class ArtificialStress(NamedTuple):
     kernel_at_spacing: float
 
 
-@compiled
+@compiled_inner
 def principal_pressure(artificial, xx, yy, xy):
     """R [Pa] of one particle: -ζ times the tensile part of its stress, xx, yy, xy.
 
@@ -35,7 +35,7 @@ def principal_pressure(artificial, xx, yy, xy):
     return middle + spread * deviation, middle - spread * deviation, spread * xy
 
 
-@compiled
+@compiled_inner
 def closeness(artificial, kernel_value):
     """f_ijⁿ with f_ij = W(r_ij)/W(mean spacing), by binary powers: no branch, so loops vectorise."""
     f = kernel_value / artificial.kernel_at_spacing

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled
+from sphstudy.compilation import compiled_inner
 
 
 class Constraints(NamedTuple):
@@ -20,7 +20,7 @@ class Constraints(NamedTuple):
     y_target: np.ndarray
 
 
-@compiled
+@compiled_inner
 def prescribe(constraints, velocity_x, velocity_y, amplitude_rate):
     """Sets the velocities (m/s) of constrained degrees of freedom to target · s'(t)."""
     for k in range(constraints.x_index.size):
@@ -29,7 +29,7 @@ def prescribe(constraints, velocity_x, velocity_y, amplitude_rate):
         velocity_y[constraints.y_index[k]] = constraints.y_target[k] * amplitude_rate
 
 
-@compiled
+@compiled_inner
 def release(constraints, acceleration_x, acceleration_y):
     """Zeroes what would accelerate constrained degrees of freedom."""
     for k in range(constraints.x_index.size):

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled_exactly
+from sphstudy.compilation import compiled_exactly, compiled_exactly_inner
 
 TOLERANCE = 1e-9
 """Widening of both segments in the visibility test, in units of their lengths.
@@ -29,7 +29,7 @@ class Crack(NamedTuple):
     frozen: np.ndarray | None = None
 
 
-@compiled_exactly
+@compiled_exactly_inner
 def _crossing(ax, ay, bx, by, px, py, qx, qy):
     """λ₁, λ₂ of a + λ₁ (b - a) = p + λ₂ (q - p); infinite if the segments are parallel."""
     dx, dy = bx - ax, by - ay
@@ -49,7 +49,7 @@ def crosses(ax, ay, bx, by, px, py, qx, qy, tolerance):
     return low <= along_pair <= high and low <= along_crack <= high
 
 
-@compiled_exactly
+@compiled_exactly_inner
 def _judged(frozen, x, y):
     if frozen is None:
         return x, y, False
@@ -76,7 +76,7 @@ def visible(ax, ay, bx, by, node_x, node_y, tolerance):
     return True
 
 
-@compiled_exactly
+@compiled_exactly_inner
 def _distance_squared(x, y, px, py, qx, qy):
     """From a point to the segment p-q."""
     dx, dy = qx - px, qy - py

@@ -4,8 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled_exactly
-from sphstudy.sph.neighbours import as_pairs
+from sphstudy.compilation import compiled_exactly, compiled_exactly_inner
 from sphstudy.sph.updated_lagrangian import RHO, SXX, SXY, SYY, VX, VY, X, Y
 
 
@@ -22,6 +21,11 @@ class Invariants(NamedTuple):
     smallest_spacing: float
     net_internal_force: float
     constraint_power: float
+
+
+@compiled_exactly_inner
+def _distance_squared(state, i, j):
+    return (state[X, i] - state[X, j]) ** 2 + (state[Y, i] - state[Y, j]) ** 2
 
 
 @compiled_exactly
@@ -55,12 +59,12 @@ def measure(state, rate, mass, youngs_modulus, poisson_ratio, constraints, pairs
         power -= mass[i] * rate[VX, i] * state[VX, i]
     for i in constraints.y_index:
         power -= mass[i] * rate[VY, i] * state[VY, i]
-    first, second = as_pairs(pairs)
     closest = np.inf
-    for p in range(first.size):
-        d_x = state[X, first[p]] - state[X, second[p]]
-        d_y = state[Y, first[p]] - state[Y, second[p]]
-        closest = min(closest, d_x * d_x + d_y * d_y)
+    for r in range(pairs.start.size):
+        for i in range(pairs.start[r], pairs.start[r] + pairs.length[r]):
+            closest = min(closest, _distance_squared(state, i, i + pairs.offset[r]))
+    for p in range(pairs.singles[0]):
+        closest = min(closest, _distance_squared(state, pairs.first[p], pairs.second[p]))
     return Invariants(
         np.sqrt(speed_squared),
         p_x,

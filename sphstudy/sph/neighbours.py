@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled_exactly
-from sphstudy.sph.crack import HIDDEN, IN_DOUBT, line_of_sight, outlook, visible
+from sphstudy.compilation import compiled_exactly, compiled_exactly_inner
+from sphstudy.sph.crack import HIDDEN, IN_DOUBT, Crack, line_of_sight, outlook, visible
 
 SHORTEST_RUN = 8
 """Shorter runs go to the singles: their set-up costs more than they save."""
@@ -34,8 +34,8 @@ class Neighbours(NamedTuple):
 
     Of the singles, the first `singles[0]` are in force; `look` appends watched pairs to the lasting ones
     as long as they see each other past the segments watched_low to watched_high of the crack.
-    `total`: pairs in all, without those that only bridge gaps. `built_x`, `built_y` [N]: positions (m)
-    for which the list was built.
+    `total`: pairs in all, without those that only bridge gaps. `skin` (m), and `built_x`, `built_y` [N],
+    the positions (m) for which the list was built: how long it is good.
     """
 
     start: np.ndarray
@@ -49,11 +49,12 @@ class Neighbours(NamedTuple):
     watched_low: np.ndarray
     watched_high: np.ndarray
     total: int
+    skin: float
     built_x: np.ndarray
     built_y: np.ndarray
 
 
-@compiled_exactly
+@compiled_exactly_inner
 def _cells(x, y, reach):
     """Particles sorted into square cells at least `reach` wide: (columns, rows, begin, order)."""
     count = x.size
@@ -86,7 +87,7 @@ def _cells(x, y, reach):
     return columns, rows, begin, order, cell
 
 
-@compiled_exactly
+@compiled_exactly_inner
 def _grown(array):
     return np.concatenate((array, np.empty_like(array)))
 
@@ -116,8 +117,8 @@ def _close_pairs(x, y, reach):
 
 
 @compiled_exactly
-def _sorted_by_sight(first, second, x, y, margin, crack):
-    """Lasting pairs (first, second), and watched ones (first, second, low, high), of all close pairs.
+def _judge(first, second, x, y, margin, crack):
+    """For all close pairs: whether they last, whether they are to be watched, and past which segments.
 
     With a crack frozen in its first configuration nothing is in doubt.
     """
@@ -125,24 +126,16 @@ def _sorted_by_sight(first, second, x, y, margin, crack):
     lasting = np.ones(first.size, np.bool_)
     watched = np.zeros(first.size, np.bool_)
     low, high = np.zeros(first.size, np.int32), np.zeros(first.size, np.int32)
-    if node_x.size > 1:
-        for p in range(first.size):
-            i, j = first[p], second[p]
-            ax, ay, bx, by = seen_x[i], seen_y[i], seen_x[j], seen_y[j]
-            if frozen:
-                lasting[p] = visible(ax, ay, bx, by, node_x, node_y, tolerance)
-            else:
-                verdict, low[p], high[p] = outlook(ax, ay, bx, by, node_x, node_y, tolerance, margin)
-                watched[p] = verdict == IN_DOUBT
-                lasting[p] = not watched[p] and verdict != HIDDEN
-    return (
-        first[lasting],
-        second[lasting],
-        first[watched],
-        second[watched],
-        low[watched],
-        high[watched],
-    )
+    for p in range(first.size):
+        i, j = first[p], second[p]
+        ax, ay, bx, by = seen_x[i], seen_y[i], seen_x[j], seen_y[j]
+        if frozen:
+            lasting[p] = visible(ax, ay, bx, by, node_x, node_y, tolerance)
+        else:
+            verdict, low[p], high[p] = outlook(ax, ay, bx, by, node_x, node_y, tolerance, margin)
+            watched[p] = verdict == IN_DOUBT
+            lasting[p] = not watched[p] and verdict != HIDDEN
+    return lasting, watched, low, high
 
 
 @compiled_exactly
@@ -159,7 +152,8 @@ def _sorted_by_offset(first, second, count):
         while high < total and first[high] // BLOCK == block:
             widest = max(widest, second[high] - first[high])
             high += 1
-        fill[: widest + 2] = 0
+        for d in range(widest + 2):
+            fill[d] = 0
         for p in range(low, high):
             fill[second[p] - first[p] + 1] += 1
         for d in range(widest + 1):
@@ -173,7 +167,7 @@ def _sorted_by_offset(first, second, count):
     return ordered_first, ordered_second
 
 
-@compiled_exactly
+@compiled_exactly_inner
 def _bridges(x, y, reach, first, second, p):
     """Whether a run may go on from pair p to pair p + 1: same offset, nothing within reach skipped."""
     offset = second[p] - first[p]
@@ -188,26 +182,15 @@ def _bridges(x, y, reach, first, second, p):
 
 
 @compiled_exactly
-def build(x, y, support, skin, crack):
-    """Neighbours of the configuration x, y [N] (m): every pair closer than `support` + `skin` (m).
-
-    `crack` is a Crack or None. Particles at positions that are not finite get no neighbours. Call `look`
-    before the list is used.
-    """
-    reach = support + skin
-    close_first, close_second = _close_pairs(x, y, reach)
-    # Until the list is outdated, no two particles, nor a particle and a node, approach by more than skin.
-    lasting_first, lasting_second, watched_first, watched_second, low_segment, high_segment = (
-        _sorted_by_sight(close_first, close_second, x, y, skin, crack)
-    )
-    first, second = _sorted_by_offset(lasting_first, lasting_second, x.size)
+def _runs(x, y, reach, first, second):
+    """Runs of the sorted pairs: start, offset, length, and a mask of the pairs that are in none."""
     total = first.size
     start = np.empty(total // SHORTEST_RUN + 1, np.int64)
     offset = np.empty_like(start)
     length = np.empty_like(start)
     single = np.zeros(total, np.bool_)
     runs = 0
-    low = 0
+    low = np.int64(0)
     while low < total:
         last = low
         while last + 1 < total and _bridges(x, y, reach, first, second, last):
@@ -218,20 +201,38 @@ def build(x, y, support, skin, crack):
             length[runs] = first[last] - first[low] + 1
             runs += 1
         else:
-            single[low : last + 1] = True
+            for p in range(low, last + 1):
+                single[p] = True
         low = last + 1
+    return start[:runs], offset[:runs], length[:runs], single
+
+
+def build(x: np.ndarray, y: np.ndarray, support: float, skin: float, crack: Crack | None) -> Neighbours:
+    """Neighbours of the configuration x, y [N] (m): every pair closer than `support` + `skin` (m).
+
+    Particles at positions that are not finite get no neighbours. Call `look` before the list is used.
+    """
+    reach = support + skin
+    first, second = _close_pairs(x, y, reach)
+    none = np.empty(0, np.int32)
+    watched_pairs = (none, none, none, none)
+    if crack is not None:
+        # While the list is good no two particles, nor a particle and a node, approach by more than skin.
+        lasting, watched, low, high = _judge(first, second, x, y, skin, crack)
+        watched_pairs = (first[watched], second[watched], low[watched], high[watched])
+        first, second = first[lasting], second[lasting]
+    first, second = _sorted_by_offset(first, second, x.size)
+    start, offset, length, single = _runs(x, y, reach, first, second)
     return Neighbours(
-        start[:runs].copy(),
-        offset[:runs].copy(),
-        length[:runs].copy(),
-        np.concatenate((first[single], watched_first)),
-        np.concatenate((second[single], watched_second)),
+        start.copy(),
+        offset.copy(),
+        length.copy(),
+        np.concatenate((first[single], watched_pairs[0])),
+        np.concatenate((second[single], watched_pairs[1])),
         np.array([np.count_nonzero(single)]),
-        watched_first,
-        watched_second,
-        low_segment,
-        high_segment,
-        total + watched_first.size,
+        *watched_pairs,
+        first.size + watched_pairs[0].size,
+        skin,
         x.copy(),
         y.copy(),
     )
@@ -255,28 +256,26 @@ def look(pairs, x, y, crack):
 
 
 @compiled_exactly
-def outdated(neighbours, x, y, skin):
-    """Whether some particle has moved farther than half of `skin` (m) since the list was built."""
-    limit = 0.25 * skin * skin
+def outdated(pairs, x, y, stride):
+    """Whether a particle may get farther than half the skin from where the list was built, moving by up
+    to `stride` (m) from x, y [N] (m).
+    """
     farthest = 0.0
     for i in range(x.size):
-        moved = (x[i] - neighbours.built_x[i]) ** 2 + (y[i] - neighbours.built_y[i]) ** 2
+        moved = (x[i] - pairs.built_x[i]) ** 2 + (y[i] - pairs.built_y[i]) ** 2
         farthest = moved if moved > farthest else farthest
-    return farthest > limit
+    return not np.sqrt(farthest) + stride <= 0.5 * pairs.skin
 
 
-@compiled_exactly
-def as_pairs(neighbours):
+def as_pairs(pairs: Neighbours) -> tuple[np.ndarray, np.ndarray]:
     """Pairs in force as two arrays of particle indices, runs first, bridging pairs included."""
-    singles = neighbours.singles[0]
-    total = singles + neighbours.length.sum()
-    first, second = np.empty(total, np.int64), np.empty(total, np.int64)
-    filled = 0
-    for r in range(neighbours.start.size):
-        for k in range(neighbours.length[r]):
-            first[filled] = neighbours.start[r] + k
-            second[filled] = first[filled] + neighbours.offset[r]
-            filled += 1
-    first[filled:] = neighbours.first[:singles]
-    second[filled:] = neighbours.second[:singles]
-    return first, second
+    along = np.arange(pairs.length.sum()) - np.repeat(
+        np.cumsum(pairs.length) - pairs.length, pairs.length
+    )
+    first = np.repeat(pairs.start, pairs.length) + along
+    second = first + np.repeat(pairs.offset, pairs.length)
+    singles = pairs.singles[0]
+    return (
+        np.concatenate((first, pairs.first[:singles])),
+        np.concatenate((second, pairs.second[:singles])),
+    )

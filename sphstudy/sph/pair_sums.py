@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled
+from sphstudy.compilation import compiled_inner
 from sphstudy.sph import kernel, viscosity
 from sphstudy.sph.artificial_stress import closeness
 
@@ -31,13 +31,13 @@ class Workspace(NamedTuple):
     gathered: np.ndarray
 
 
-@compiled
+@compiled_inner
 def artificial_row(viscosity_term):
     """First of the three rows of R in the pair data."""
     return SOUND if viscosity_term is None else SOUND + 1
 
 
-@compiled
+@compiled_inner
 def _smoothing_terms(model, data, i0, j0, count, terms):
     """XSPH (2.20): (v_j - v_i) W_ij / ((ρ_i + ρ_j)/2) for `count` pairs (i0 + k, j0 + k)."""
     i1, j1 = i0 + count, j0 + count
@@ -58,7 +58,7 @@ def _smoothing_terms(model, data, i0, j0, count, terms):
         term_y[k] = (vj[k] - vi[k]) * weight
 
 
-@compiled
+@compiled_inner
 def _sound_speeds(viscosity_term, data, begin, count):
     """c of a batch; the densities stand in where no viscosity needs it."""
     if viscosity_term is None:
@@ -66,14 +66,14 @@ def _sound_speeds(viscosity_term, data, begin, count):
     return data[SOUND, begin : begin + count]
 
 
-@compiled
+@compiled_inner
 def _viscous_pressure(viscosity_term, length, approach, distance_squared, c_sum, rho_sum):
     if viscosity_term is None:
         return 0.0
     return viscosity.pressure(viscosity_term, length, approach, distance_squared, c_sum, rho_sum)
 
 
-@compiled
+@compiled_inner
 def _artificial_stresses(artificial, row, data, begin, count):
     """R of a batch, xx, yy, xy; the stresses stand in where there is none."""
     end = begin + count
@@ -82,14 +82,14 @@ def _artificial_stresses(artificial, row, data, begin, count):
     return data[row, begin:end], data[row + 1, begin:end], data[row + 2, begin:end]
 
 
-@compiled
+@compiled_inner
 def _artificial_factor(artificial, q):
     if artificial is None:
         return 0.0
     return closeness(artificial, kernel.value(q))
 
 
-@compiled
+@compiled_inner
 def _momentum_terms(model, data, i0, j0, count, terms):
     """Pair terms of (2.24), (2.16) and (2.17) for `count` pairs (i0 + k, j0 + k).
 
@@ -146,7 +146,7 @@ def _momentum_terms(model, data, i0, j0, count, terms):
         grad_xy[k] = 0.5 * (du * gy + dv * gx)
 
 
-@compiled
+@compiled_inner
 def _add_smoothing(sums, mass, terms, sign, begin, count):
     """Adds sign · m t to the particles from `begin` on; `mass` is their partners'."""
     end = begin + count
@@ -158,7 +158,7 @@ def _add_smoothing(sums, mass, terms, sign, begin, count):
         sum_y[k] += m * term_y[k]
 
 
-@compiled
+@compiled_inner
 def _add_momentum(sums, mass, specific, terms, sign, begin, count):
     """Adds the terms to the particles from `begin` on; mass and 1/ρ are their partners'.
 
@@ -180,7 +180,7 @@ def _add_momentum(sums, mass, specific, terms, sign, begin, count):
         strain_xy[k] += volume * grad_xy[k]
 
 
-@compiled
+@compiled_inner
 def _gather(data, rows, pairs, low, count, gathered):
     """Copies the pair data of `count` singles side by side: i at 0, j at BATCH."""
     for row in range(rows):
@@ -190,7 +190,7 @@ def _gather(data, rows, pairs, low, count, gathered):
             target[BATCH + k] = source[pairs.second[low + k]]
 
 
-@compiled
+@compiled_inner
 def sum_smoothing(model, pairs, work):
     """Row 0, 1 of the sums: Σ_j m_j (v_j - v_i) W_ij / ((ρ_i + ρ_j)/2)."""
     data, sums, terms, gathered = work.pair_data, work.sums, work.terms, work.gathered
@@ -217,7 +217,7 @@ def sum_smoothing(model, pairs, work):
                 sums[row, j] -= mass[i] * terms[row, k]
 
 
-@compiled
+@compiled_inner
 def sum_momentum(model, pairs, work):
     """All six sums of the momentum pass."""
     data, sums, terms, gathered = work.pair_data, work.sums, work.terms, work.gathered

@@ -9,16 +9,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled, compiled_exactly
+from sphstudy.compilation import compiled, compiled_exactly, compiled_inner
 from sphstudy.sph import kernel, neighbours, pair_sums
 from sphstudy.sph.artificial_stress import ArtificialStress, principal_pressure
 from sphstudy.sph.constraints import Constraints, prescribe, release
 from sphstudy.sph.crack import Crack
+from sphstudy.sph.neighbours import Neighbours
 from sphstudy.sph.pair_sums import Workspace
 from sphstudy.sph.viscosity import Viscosity
 
 X, Y, VX, VY, RHO, SXX, SYY, SXY = range(8)
 STATE_ROWS = 8
+
+LONGEST_STRIDE = 0.125
+"""Of the support: how far a particle may move in one step. About a third of a spacing."""
 
 
 class Model(NamedTuple):
@@ -59,25 +63,37 @@ def workspace(model: Model, count: int) -> Workspace:
     )
 
 
-@compiled_exactly
-def build_neighbours(model, x, y):
-    """Neighbour list of the configuration x, y (m), out to the support plus the skin."""
+def build_neighbours(model: Model, state: np.ndarray, stride: float = 0.0) -> Neighbours | None:
+    """Neighbour list of the state [8, N], good for at least one step in which nothing moves farther than
+    `stride` (m). None if that is more than an eighth of the support: no solid moves so in a step.
+    """
     support = kernel.SUPPORT * model.smoothing_length
-    pairs = neighbours.build(x, y, support, model.skin, model.crack)
-    neighbours.look(pairs, x, y, model.crack)
-    return pairs
+    if not stride <= LONGEST_STRIDE * support:
+        return None
+    skin = max(model.skin, 4.0 * stride)
+    return neighbours.build(state[X], state[Y], support, skin, model.crack)
 
 
 @compiled_exactly
-def refresh_neighbours(model, pairs, x, y):
-    """The list, or a new one if some particle moved too far, made good for the configuration x, y (m)."""
-    if neighbours.outdated(pairs, x, y, model.skin):
-        return build_neighbours(model, x, y)
-    neighbours.look(pairs, x, y, model.crack)
-    return pairs
+def fastest(model, state, amplitude_rate):
+    """Largest speed (m/s) that a particle has, or is about to be given by its constraints.
+
+    No smoothed velocity is larger: (2.20) with µ ≤ 1 is a mean of velocities, near enough.
+    """
+    largest = 0.0
+    for i in range(state.shape[1]):
+        squared = state[VX, i] ** 2 + state[VY, i] ** 2
+        if not squared <= largest:
+            largest = squared
+    driven = 0.0
+    for target in model.constraints.x_target:
+        driven = max(driven, abs(target * amplitude_rate))
+    for target in model.constraints.y_target:
+        driven = max(driven, abs(target * amplitude_rate))
+    return np.sqrt(largest) + 2.0 * driven
 
 
-@compiled
+@compiled_inner
 def _load_motion(model, state, data):
     """Position, velocity, mass and density of every particle into the pair data."""
     for i in range(state.shape[1]):
@@ -89,7 +105,7 @@ def _load_motion(model, state, data):
         data[pair_sums.RHO, i] = state[RHO, i]
 
 
-@compiled
+@compiled_inner
 def _load_sound_speed(viscosity, bulk_modulus, state, data):
     """c_i = √(K/ρ_i) (2.22)."""
     if viscosity is None:
@@ -98,7 +114,7 @@ def _load_sound_speed(viscosity, bulk_modulus, state, data):
         data[pair_sums.SOUND, i] = np.sqrt(bulk_modulus / state[RHO, i])
 
 
-@compiled
+@compiled_inner
 def _load_artificial_stress(artificial, row, state, data):
     if artificial is None:
         return
@@ -109,7 +125,7 @@ def _load_artificial_stress(artificial, row, state, data):
         data[row + 2, i] = xy
 
 
-@compiled
+@compiled_inner
 def _load_stress(model, state, data):
     """What the momentum pass needs besides the motion: stress, 1/ρ, c, R."""
     for i in range(state.shape[1]):
@@ -122,45 +138,34 @@ def _load_stress(model, state, data):
     _load_artificial_stress(model.artificial, row, state, data)
 
 
-@compiled
-def _add_xsph(xsph, model, pairs, work):
+@compiled_inner
+def _smoothed_velocity(xsph, model, state, pairs, amplitude_rate, work):
+    """ṽ of (2.20) into the pair data; constrained particles keep the prescribed velocity."""
+    data, sums = work.pair_data, work.sums
+    _load_motion(model, state, data)
     if xsph is None:
         return
     pair_sums.sum_smoothing(model, pairs, work)
-    data, sums = work.pair_data, work.sums
     for i in range(data.shape[1]):
         data[pair_sums.U, i] += xsph * sums[0, i]
         data[pair_sums.V, i] += xsph * sums[1, i]
-
-
-@compiled
-def _smoothed_velocity(model, state, pairs, amplitude_rate, work):
-    """ṽ of (2.20) into the pair data; constrained particles keep the prescribed velocity."""
-    data = work.pair_data
-    _load_motion(model, state, data)
-    _add_xsph(model.xsph, model, pairs, work)
     if model.prescribe_smoothed:
         prescribe(model.constraints, data[pair_sums.U], data[pair_sums.V], amplitude_rate)
 
 
 @compiled
-def _smear(smoothing, model, state, pairs, amplitude_rate, work):
+def begin_step(smoothing, model, state, pairs, amplitude_rate, work):
+    """Prescribes velocities and smears them, v ← (1-η) v + η ṽ (2.26), unless `smoothing` η is None."""
+    prescribe(model.constraints, state[VX], state[VY], amplitude_rate)
     if smoothing is None:
         return
-    _smoothed_velocity(model, state, pairs, amplitude_rate, work)
+    _smoothed_velocity(model.xsph, model, state, pairs, amplitude_rate, work)
     data = work.pair_data
     for i in range(state.shape[1]):
         state[VX, i] += smoothing * (data[pair_sums.U, i] - state[VX, i])
         state[VY, i] += smoothing * (data[pair_sums.V, i] - state[VY, i])
     if model.prescribe_again:
         prescribe(model.constraints, state[VX], state[VY], amplitude_rate)
-
-
-@compiled
-def begin_step(model, state, pairs, amplitude_rate, work):
-    """Prescribes velocities and smears them, v ← (1-η) v + η ṽ (2.26)."""
-    prescribe(model.constraints, state[VX], state[VY], amplitude_rate)
-    _smear(model.smoothing, model, state, pairs, amplitude_rate, work)
 
 
 @compiled
@@ -171,7 +176,7 @@ def rates(model, state, pairs, amplitude_rate, work, rate):
     damping: `constrain` finishes them.
     """
     data, sums = work.pair_data, work.sums
-    _smoothed_velocity(model, state, pairs, amplitude_rate, work)
+    _smoothed_velocity(model.xsph, model, state, pairs, amplitude_rate, work)
     _load_stress(model, state, data)
     pair_sums.sum_momentum(model, pairs, work)
     two_mu = 2.0 * model.shear_modulus
@@ -187,7 +192,7 @@ def rates(model, state, pairs, amplitude_rate, work, rate):
         rate[SXY, i] = two_mu * sums[5, i]
 
 
-@compiled
+@compiled_inner
 def _damp(damping, rate, data):
     if damping is None:
         return

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from sphstudy.compilation import compiled
+from sphstudy.compilation import compiled_inner
 
 
 class Viscosity(NamedTuple):
@@ -12,7 +12,7 @@ class Viscosity(NamedTuple):
     quadratic: float
 
 
-@compiled
+@compiled_inner
 def pressure(viscosity, smoothing_length, approach, distance_squared, c_sum, density_sum):
     """Π_ij ≥ 0 [m⁵/(kg s²)] from x_ij·v_ij, x_ij², c_i + c_j and ρ_i + ρ_j; zero on separation.
 

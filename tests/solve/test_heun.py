@@ -5,12 +5,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from sphstudy.solve.heun import CHECK_INTERVAL, advance, buffers
-from sphstudy.sph.updated_lagrangian import build_neighbours
+from sphstudy.solve.heun import CHECK_INTERVAL, OUTDATED, UNSOUND, advance, buffers
+from sphstudy.sph.updated_lagrangian import build_neighbours, fastest
 from tests.sph import brute_force
 from tests.sph.clouds import lattice_positions, model, random_state
-
-FAST = 1e9
 
 
 @pytest.fixture
@@ -25,15 +23,18 @@ def body(rng):
     return made, state
 
 
-def stepped(made, state, dt, chunks, limit=FAST):
+def stepped(made, state, dt, chunks, begin=0):
+    """State, steps taken and whether it is still sound, after stepping in these chunks."""
     state = state.copy()
-    pairs, memory = build_neighbours(made, *state[:2]), buffers(made, state.shape[1])
-    begin, sound = 0, True
+    pairs, memory = build_neighbours(made, state), buffers(made, state.shape[1])
     for end in chunks:
-        begin, sound, pairs = advance(made, state, pairs, memory, 0.0, dt, begin, end, limit)
-        if not sound:
-            break
-    return state, begin, sound
+        while begin < end:
+            begin, reason = advance(made, state, pairs, memory, 0.0, dt, begin, end)
+            if reason == OUTDATED:
+                pairs = build_neighbours(made, state, dt * fastest(made, state, 0.0))
+            if reason == UNSOUND or pairs is None:
+                return state, begin, False
+    return state, begin, True
 
 
 def test_one_step_is_predictor_and_trapezoidal_corrector(body):
@@ -73,21 +74,20 @@ def test_second_order_in_time(body):
     assert orders[-1] == pytest.approx(2.0, abs=0.25)
 
 
-@pytest.mark.parametrize(("row", "value"), [(0, np.nan), (2, np.inf), (7, np.nan), (4, -1.0), (3, 50.0)])
+@pytest.mark.parametrize(("row", "value"), [(0, np.nan), (2, np.inf), (7, np.nan), (4, -1.0), (3, 5e3)])
 def test_a_blow_up_is_noticed_within_a_hundred_steps(body, row, value):
     made, state = body
-    bad, step, sound = stepped(made, state, 0.001, [30], limit=10.0)
+    bad, step, sound = stepped(made, state, 0.001, [30])
     assert sound
     assert step == 30
     bad[row, 20] = value
-    pairs, memory = build_neighbours(made, *bad[:2]), buffers(made, bad.shape[1])
-    reached, sound, _ = advance(made, bad, pairs, memory, 0.0, 0.001, 30, 10_000, 10.0)
+    _, reached, sound = stepped(made, bad, 0.001, [10_000], begin=30)
     assert not sound
     assert reached - 30 <= min(100, CHECK_INTERVAL)
 
 
 def test_an_unstable_step_ends_by_itself(body):
     made, state = body
-    _, step, sound = stepped(made, state, 5.0, [100_000], limit=1e3)
+    _, step, sound = stepped(made, state, 5.0, [100_000])
     assert not sound
     assert step <= 200

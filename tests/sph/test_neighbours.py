@@ -81,7 +81,7 @@ def test_no_pair_is_missed_until_the_list_is_outdated(rng):
     rebuilds = 0
     for _ in range(60):
         x, y = x + rng.normal(scale=0.02, size=x.size), y + rng.normal(scale=0.02, size=x.size)
-        if neighbours.outdated(pairs, x, y, skin):
+        if neighbours.outdated(pairs, x, y, 0.0):
             pairs = built(x, y, support, skin)
             rebuilds += 1
         assert tree_pairs(x, y, support) <= listed_pairs(pairs, x, y, support + 2 * skin)
@@ -101,7 +101,7 @@ def test_sight_is_exact_at_every_moment_between_two_builds(rng, shape, tolerance
         before = listed_pairs(pairs, x, y, support)
         assert before == tree_pairs(x, y, support, crack)
         drift = rng.normal(scale=0.03, size=(2, x.size))
-        while not neighbours.outdated(pairs, x, y, skin):
+        while not neighbours.outdated(pairs, x, y, 0.0):
             neighbours.look(pairs, x, y, crack)
             seen = listed_pairs(pairs, x, y, support)
             assert seen == tree_pairs(x, y, support, crack)
@@ -125,7 +125,15 @@ def test_outdated_is_about_half_the_skin():
     for moved, answer in ((0.0499, False), (0.0501, True)):
         shifted = x.copy()
         shifted[5] += moved
-        assert neighbours.outdated(pairs, shifted, y, 0.1) == answer
+        assert neighbours.outdated(pairs, shifted, y, 0.0) == answer
+
+
+def test_outdated_reckons_with_the_next_stride():
+    x, y = lattice_positions(4, 4)
+    pairs = built(x, y, 1.4, 0.1)
+    assert not neighbours.outdated(pairs, x, y, 0.05)
+    assert neighbours.outdated(pairs, x, y, 0.0501)
+    assert neighbours.outdated(pairs, x, y, np.nan)
 
 
 def test_positions_that_are_not_finite_neither_crash_nor_have_neighbours():

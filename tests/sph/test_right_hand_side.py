@@ -5,16 +5,25 @@ import itertools
 import numpy as np
 import pytest
 
+from sphstudy.sph import updated_lagrangian
 from sphstudy.sph.constraints import Constraints
-from sphstudy.sph.updated_lagrangian import begin_step, build_neighbours, constrain, rates, workspace
+from sphstudy.sph.neighbours import look
+from sphstudy.sph.updated_lagrangian import begin_step, constrain, rates, workspace
 from tests.sph import brute_force
 from tests.sph.clouds import TERMS, lattice_positions, model, random_cloud, random_state
 
 ALL = [c for k in range(len(TERMS) + 1) for c in itertools.combinations(TERMS, k)]
 
 
+def build_neighbours(made, state):
+    """A list that is up to date with the state."""
+    pairs = updated_lagrangian.build_neighbours(made, state)
+    look(pairs, state[0], state[1], made.crack)
+    return pairs
+
+
 def evaluate(made, state, amplitude_rate=0.0):
-    pairs = build_neighbours(made, state[0], state[1])
+    pairs = build_neighbours(made, state)
     work = workspace(made, state.shape[1])
     rate = np.full_like(state, np.nan)
     rates(made, state, pairs, amplitude_rate, work, rate)
@@ -100,8 +109,8 @@ def test_constraints_prescribe_velocity_smoothed_velocity_and_leave_no_accelerat
     constraints = Constraints(held, target, held[:2], target[:2])
     made = model(rng, positions, constraints=constraints, damping=0.4, smoothing=0.7)
     state = random_state(rng, positions)
-    pairs, work = build_neighbours(made, *state[:2]), workspace(made, positions.shape[1])
-    begin_step(made, state, pairs, 2.0, work)
+    pairs, work = build_neighbours(made, state), workspace(made, positions.shape[1])
+    begin_step(made.smoothing, made, state, pairs, 2.0, work)
     rate = np.zeros_like(state)
     rates(made, state, pairs, 2.0, work, rate)
     constrain(made, rate, work)
@@ -118,8 +127,8 @@ def test_smearing_and_damping_follow_their_equations(rng):
     made, state = model(rng, positions, damping=0.4, smoothing=0.7), random_state(rng, positions)
     before = state.copy()
     _, smoothed = brute_force.rates(made, before)
-    pairs, work = build_neighbours(made, *state[:2]), workspace(made, positions.shape[1])
-    begin_step(made, state, pairs, 0.0, work)
+    pairs, work = build_neighbours(made, state), workspace(made, positions.shape[1])
+    begin_step(made.smoothing, made, state, pairs, 0.0, work)
     np.testing.assert_allclose(state[2:4], 0.3 * before[2:4] + 0.7 * smoothed, atol=1e-13)
     rate = np.zeros_like(state)
     rates(made, state, pairs, 0.0, work, rate)

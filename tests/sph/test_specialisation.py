@@ -16,7 +16,7 @@ def generated(rng, terms):
     """Assembly of the momentum terms of a model with these terms, compiled afresh."""
     positions = lattice_positions()
     made, state = model(rng, positions, terms), random_state(rng, positions)
-    pairs, work = build_neighbours(made, *state[:2]), workspace(made, positions.shape[1])
+    pairs, work = build_neighbours(made, state), workspace(made, positions.shape[1])
     rates(made, state, pairs, 0.0, work, np.zeros_like(state))
     kernel = pair_sums._momentum_terms.py_func
     import numba

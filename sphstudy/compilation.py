@@ -8,6 +8,7 @@ import hashlib
 import os
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import llvmlite.binding
 import numba
@@ -49,10 +50,10 @@ if not os.environ.get("NUMBA_CACHE_DIR"):
 for _option in _LLVM_OPTIONS:
     llvmlite.binding.set_option("sphstudy", _option)
 
-_EXACT = {"cache": True, "error_model": "numpy"}
-_FAST = {**_EXACT, "fastmath": _FAST_MATH}
+_EXACT: dict[str, Any] = {"cache": True, "error_model": "numpy"}
+_FAST: dict[str, Any] = {**_EXACT, "fastmath": _FAST_MATH}
 # Without the wrappers through which Python would call it, a function compiles in half the time.
-_INNER = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+_INNER: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 compiled = numba.njit(**_FAST)
 """Decorator for arithmetic: fused, reassociated, but with NaN and infinity kept meaningful."""

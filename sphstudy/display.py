@@ -35,15 +35,15 @@ class _Follower:
         self._before = self._stamp()
         self.finished = False
         self.fraction = 0.0
-        self.note: dict | None = None
+        self.note: dict = {}
 
     def _stamp(self) -> int:
         return self.record.stat().st_mtime_ns if self.record.exists() else 0
 
     def look(self) -> bool:
         """Looks at the files; True if the run has just finished."""
-        self.note = read_marker(self.marker)
-        if self.note and self.note["steps"]:
+        self.note = read_marker(self.marker) or {}
+        if self.note.get("steps"):
             self.fraction = self.note["step"] / self.note["steps"]
         if not self.finished and self._stamp() != self._before:
             self.finished, self.fraction = True, 1.0
@@ -69,9 +69,11 @@ class _Board:
         self.cost = sum(cost for _, cost in runs)
         self.started = time.monotonic()
 
-    def look(self) -> list[_Follower]:
-        """Looks at all runs; those that have just finished."""
-        return [f for f in self.followers if not f.finished and f.look()]
+    def news(self) -> Iterator[str]:
+        """Looks at all runs; a plain line for each that has just finished."""
+        for follower in self.followers:
+            if not follower.finished and follower.look():
+                yield self.line(follower)
 
     @property
     def finished(self) -> int:
@@ -89,6 +91,11 @@ class _Board:
         """One line: how many are done, and how long the rest will take."""
         kept = f", {self.reused} kept from before" if self.reused else ""
         return f"{self.finished} of {len(self.followers)} runs done{kept}, {self.time_left()}"
+
+    def running(self) -> str:
+        """The runs in progress, each with its share done."""
+        active = [f for f in self.followers if f.note and not f.finished]
+        return "running: " + ", ".join(f"{f.config.label} {f.fraction:.0%}" for f in active)
 
     def line(self, follower: _Follower) -> str:
         """A plain line for a run that has finished."""
@@ -129,9 +136,9 @@ def _follow_plainly(board: _Board, console: Console, stop: threading.Event) -> N
     ended, spoke = False, time.monotonic()
     while not ended:
         ended = stop.wait(_INTERVAL)
-        lines = [board.line(follower) for follower in board.look()]
+        lines = list(board.news())
         if not (lines or ended) and time.monotonic() - spoke > _SILENCE:
-            lines = [board.headline()]
+            lines = [f"{board.headline()}; {board.running()}"]
         for line in lines:
             console.print(line, highlight=False, markup=False, soft_wrap=True)
             spoke = time.monotonic()
@@ -142,8 +149,8 @@ def _follow_live(board: _Board, console: Console, stop: threading.Event) -> None
         ended = False
         while not ended:
             ended = stop.wait(_INTERVAL)
-            for follower in board.look():
-                live.console.print(board.line(follower), highlight=False, markup=False)
+            for line in board.news():
+                live.console.print(line, highlight=False, markup=False)
             live.update(board.picture(), refresh=True)
 
 

@@ -1,12 +1,15 @@
 """How numerical code is compiled: one decorator, one cache keyed on the package's sources.
 
 Numba's own cache does not notice when a function called from *another* file changes. So the cache
-folder carries a hash of every source file of the package: after a change it is simply another one.
+folder carries a hash of the sources of all compiled code: after a change it is simply another one.
 """
 
 import hashlib
 import os
+import shutil
 import tempfile
+import time
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -24,9 +27,11 @@ _LLVM_OPTIONS = ("-runtime-memory-check-threshold=256", "-vectorize-memory-check
 
 
 def source_hash() -> str:
-    """Hash of every Python source of the package, hexadecimal, 16 characters."""
+    """Hash of the sources of everything compiled (sph, solve, this file), 16 hexadecimal digits."""
     digest = hashlib.sha256()
-    for path in sorted(_PACKAGE.rglob("*.py")):
+    compiled_folders = (_PACKAGE / "sph", _PACKAGE / "solve")
+    paths = [Path(__file__), *(p for folder in compiled_folders for p in folder.rglob("*.py"))]
+    for path in sorted(paths):
         digest.update(path.relative_to(_PACKAGE).as_posix().encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
@@ -38,11 +43,21 @@ def _cache_folder() -> Path:
         folder = root / source_hash()
         try:
             folder.mkdir(parents=True, exist_ok=True)
+            os.utime(folder)
         except OSError:
             continue
         if os.access(folder, os.W_OK):
+            _forget_old_ones(root)
             return folder
     raise OSError("no writable folder for compiled code: set NUMBA_CACHE_DIR")
+
+
+def _forget_old_ones(root: Path) -> None:
+    """Removes what other versions of the sources left, a month after they were last used."""
+    for folder in root.iterdir():
+        with suppress(FileNotFoundError):
+            if folder.stat().st_mtime < time.time() - 30 * 86400:
+                shutil.rmtree(folder, ignore_errors=True)
 
 
 if not os.environ.get("NUMBA_CACHE_DIR"):

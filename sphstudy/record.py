@@ -64,6 +64,12 @@ def fields(problem: Problem, solution: Solution) -> xr.Dataset:
         ),
         "snapshot_time": _variable(time, [s.time for s in snapshots], "s", "time of the snapshot"),
         "snapshot_step": _variable(time, [s.step for s in snapshots], "1", "step of the snapshot"),
+        "energy_youngs_modulus": _variable(
+            (), problem.energy_compliance[0], "Pa", "E* of the strain energy (3.18)"
+        ),
+        "energy_poisson_ratio": _variable(
+            (), problem.energy_compliance[1], "1", "ν* of the strain energy (3.18)"
+        ),
         "time_step": _variable((), solution.time_step, "s", "time step"),
     }
     for name, mask in body.tags.items():

@@ -89,7 +89,8 @@ def _bulk_modulus(config, problem: Problem) -> float:
     material = problem.body.material
     if config.method.bulk_modulus == "unprimed" or material.plane == "strain":
         return material.bulk_modulus
-    return material.lame_modulus + 2.0 / 3.0 * material.shear_modulus
+    e, nu = material.primed
+    return e / (3.0 * (1.0 - 2.0 * nu))
 
 
 def _crack(config, problem: Problem, nodes: int) -> Crack | None:

@@ -50,14 +50,13 @@ def propagated_release_rate(u0: float, u1: float, u2: float, spacing: float) -> 
     return -(-1.5 * u0 + 2.0 * u1 - 0.5 * u2) / spacing
 
 
-def strain_energy(state: xr.Dataset, mass: np.ndarray, config) -> float:
-    """U = ½ Σ σ:ε m/ρ [J/m] (3.18 to 3.21), plane stress."""
-    e, nu = config.scene.E, config.scene.nu
-    if config.scene.energy_constants == "primed":
-        e, nu = e * (1.0 + 2.0 * nu) / (1.0 + nu) ** 2, nu / (1.0 + nu)
+def strain_energy(run: xr.Dataset, stage: str) -> float:
+    """U = ½ Σ σ:ε m/ρ [J/m] (3.18 to 3.21) at the end of a stage, in plane stress."""
+    state = snapshot(run, stage)
+    e, nu = float(run["energy_youngs_modulus"]), float(run["energy_poisson_ratio"])
     xx, yy, xy = (state[f"stress_{c}"].values for c in ("xx", "yy", "xy"))
     density = (xx**2 + yy**2 - 2.0 * nu * xx * yy + 2.0 * (1.0 + nu) * xy**2) / (2.0 * e)
-    return float(np.sum(density * mass / state["density"].values))
+    return float(np.sum(density * run["mass"].values / state["density"].values))
 
 
 def _projection(run: xr.Dataset, config, chosen: np.ndarray) -> tuple[StressIntensity, ...]:
@@ -98,9 +97,8 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
         "K_II_standard_error": Metric(k2.standard_error, k_units, "standard error of that fit"),
         "K_II_error": Metric((k2.value - k_exact[1]) / scene.K, "1", "error of K_II over K"),
     }
-    mass = run["mass"].values
     stages = ("settle", *(f"extend{k}" for k in range(1, scene.extensions + 1)))
-    energies = [strain_energy(snapshot(run, stage), mass, config) for stage in stages]
+    energies = [strain_energy(run, stage) for stage in stages]
     for k, energy in enumerate(energies):
         length = "a" if k == 0 else f"a + {k}Δx"
         metrics[f"U{k}"] = Metric(energy, "J m-1", f"strain energy with crack length {length}")

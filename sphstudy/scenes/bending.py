@@ -45,6 +45,7 @@ def build(config) -> Problem:
         ),
         stages=(Stage("load", "load"), Stage("settle", "settle", until=scene.end_time)),
         step_spacing=body.spacing_y,
+        energy_compliance=body.material.compliance,
         velocity_x=np.zeros(body.x.size),
         velocity_y=np.zeros(body.x.size),
         tracked=int(np.flatnonzero(body.tags["centreline"] & body.tags["end"])[0]),

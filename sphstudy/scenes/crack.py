@@ -85,7 +85,8 @@ def crack_body(config) -> Body:
 def build(config) -> Problem:
     """Problem of the cracked square: driven frame, floating crack, load, settle, extend."""
     scene, n = config.scene, config.n
-    body = crack_body(config)
+    body, primed = crack_body(config), scene.energy_constants == "primed"
+    material = body.material
     u_x, u_y = williams.displacement(scene.mode, body.x, body.y, scene.K, scene.E, scene.nu)
     frame = np.flatnonzero(body.tags["frame"])
     # One node per column: half-way between the particles of the two rows beside y = 0.
@@ -104,6 +105,7 @@ def build(config) -> Problem:
             *extensions,
         ),
         step_spacing=body.spacing_x,
+        energy_compliance=material.primed if primed else material.compliance,
         velocity_x=np.zeros(body.x.size),
         velocity_y=np.zeros(body.x.size),
         tracked=int(np.flatnonzero(body.tags["faces"] & (body.y > 0.0))[0]),

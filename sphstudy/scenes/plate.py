@@ -100,6 +100,7 @@ def build(config) -> Problem:
         constraints=Constraints(clamped, still, clamped, still),
         stages=(Stage("vibrate", "run", duration=scene.periods * 2.0 * np.pi / omega),),
         step_spacing=body.spacing_y,
+        energy_compliance=body.material.compliance,
         velocity_x=np.zeros(body.x.size),
         velocity_y=velocity,
         tracked=int(np.flatnonzero(body.tags["centreline"] & body.tags["end"])[0]),

@@ -52,13 +52,15 @@ class Problem:
 
     velocity_x, velocity_y [N]: initial velocity (m/s). crack_first, crack_second [K]: the pairs of
     particles that carry the crack's nodes, those of later extensions included. step_spacing: the Δ of
-    the time step rule (2.27) (m). tracked: index of the particle whose displacement is recorded.
+    the time step rule (2.27) (m). energy_compliance: E* (Pa) and ν* by which strains follow from stresses
+    in the strain energy (3.18). tracked: index of the particle whose displacement is recorded.
     """
 
     body: Body
     constraints: Constraints
     stages: tuple[Stage, ...]
     step_spacing: float
+    energy_compliance: tuple[float, float]
     velocity_x: np.ndarray
     velocity_y: np.ndarray
     tracked: int

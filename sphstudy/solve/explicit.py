@@ -206,13 +206,11 @@ class Run:
             pairs = build_neighbours(self.model, self.state) or pairs
         look(pairs, self.state[X], self.state[Y], self.model.crack)
         rates(self.model, self.state, pairs, self.amplitude_rate, self.memory.work, self._rate)
-        youngs_modulus, poisson_ratio = energy_compliance(self.problem, self.config)
         totals = invariants.measure(
             self.state,
             self._rate,
             self.problem.body.mass,
-            youngs_modulus,
-            poisson_ratio,
+            *self.problem.energy_compliance,
             self.problem.constraints,
             pairs,
         )
@@ -233,15 +231,6 @@ class Run:
         self.solution.message = (
             f"{indicator} at step {step} of {self.total} (t = {step * self.dt:.6g} s, stage {stage.name})"
         )
-
-
-def energy_compliance(problem: Problem, config) -> tuple[float, float]:
-    """(E*, ν*) of the strain energy (3.18); E' and ν' where the scene asks for the primed ones."""
-    material = problem.body.material
-    if getattr(config.scene, "energy_constants", "unprimed") == "unprimed":
-        return material.compliance
-    e, nu = material.youngs_modulus, material.poisson_ratio
-    return e * (1.0 + 2.0 * nu) / (1.0 + nu) ** 2, nu / (1.0 + nu)
 
 
 def run(problem: Problem, config, method, on_progress: Callable[[int, int], None]) -> Solution:

@@ -40,6 +40,12 @@ class Material(NamedTuple):
         return e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
 
     @property
+    def primed(self) -> tuple[float, float]:
+        """(E', ν') = (E(1+2ν)/(1+ν)², ν/(1+ν)): in the plane strain law they make plane stress."""
+        e, nu = self.youngs_modulus, self.poisson_ratio
+        return e * (1.0 + 2.0 * nu) / (1.0 + nu) ** 2, nu / (1.0 + nu)
+
+    @property
     def compliance(self) -> tuple[float, float]:
         """(E*, ν*) with which the strains are ε_xx = (σ_xx - ν* σ_yy)/E*, ε_xy = (1 + ν*) σ_xy/E*.
 

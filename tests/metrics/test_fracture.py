@@ -36,7 +36,7 @@ def crack_record(mode, factor=1.0, energies=(0.0, 0.0, 0.0)):
     data["snapshot_label"] = ("snapshot", labels)
     data["mass"] = ("particle", body.mass)
     data["reference_x"], data["reference_y"] = ("particle", body.x), ("particle", body.y)
-    data["spacing_x"] = body.spacing_x
+    data |= {"spacing_x": body.spacing_x, "energy_youngs_modulus": E, "energy_poisson_ratio": NU}
     data |= {f"tag_{name}": ("particle", mask.astype(np.int8)) for name, mask in body.tags.items()}
     return xr.Dataset(data, attrs={"configuration": json.dumps(config.as_dict())}), config
 

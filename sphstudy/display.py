@@ -110,7 +110,11 @@ class _Board:
             if follower.note and not follower.finished:
                 note = follower.note
                 bar = ProgressBar(total=max(note["steps"], 1), completed=note["step"], width=30)
-                state = f"step {note['step']:,} of {note['steps']:,}" if note["steps"] else "starting"
+                state = (
+                    f"step {note['step']:,} of {note['steps']:,}"
+                    if note["steps"]
+                    else "starting (the first run compiles)"
+                )
                 rows.add_row(follower.config.label, bar, state)
         return Group(self.headline(), rows)
 

@@ -49,7 +49,7 @@ def test_a_sweep_leaves_a_record_a_point_one_dataset_and_a_table(swept):
         for name, variable in dataset.variables.items():
             assert variable.attrs["long_name"], name
             assert variable.attrs["units"], name
-    for word in ("frequency_error", "cpu_seconds", "done", str(path.name)):
+    for word in ("frequency error", "cpu seconds (s)", "done", str(path.name)):
         assert word in result.stdout
     assert "[4/4]" in result.stderr
 

@@ -12,7 +12,13 @@ from joblib.externals.loky import get_reusable_executor
 
 from sphstudy import collect, study
 from sphstudy.composition import Point, Session, launcher_overrides, session
-from sphstudy.config import ConfigurationError, method_module, scene_module, solver_module
+from sphstudy.config import (
+    ConfigurationError,
+    RunConfig,
+    method_module,
+    scene_module,
+    solver_module,
+)
 from sphstudy.display import display
 from sphstudy.record import STATUS
 from sphstudy.runner import task
@@ -28,12 +34,16 @@ class Planned:
     cost: float
 
 
-def predicted_cost(config) -> float:
-    """Steps times pairs: enough to order runs and to share out the time left."""
+def prospect(config: RunConfig) -> tuple[float, list[str]]:
+    """Cost of a run, and what the solver has to complain about it once it sees the problem.
+
+    The cost is steps times pairs: enough to order runs and to share out the time left.
+    """
     scene, method = scene_module(config.scene.kind), method_module(config.method.kind)
-    solver = solver_module(config.solve.name)
-    steps = solver.predicted_steps(scene.build(config), config, method)
-    return steps * scene.particles(config) * method.lattice_neighbours(config.h) / 2.0
+    solver, problem = solver_module(config.solve.name), scene.build(config)
+    steps = solver.predicted_steps(problem, config, method)
+    cost = steps * scene.particles(config) * method.lattice_neighbours(config.h) / 2.0
+    return cost, list(solver.check(problem, config, method))
 
 
 def run_command(arguments: list[str], many: bool, force: bool) -> int:
@@ -85,8 +95,13 @@ def sweep(
 
     Returns the combined dataset and the file it was written to, called `name` if given.
     """
+    prospects = [prospect(p.config) for p in points]
+    if complaints := [complaint for _, found in prospects for complaint in found]:
+        raise ConfigurationError(complaints)
     store.prepare()
-    planned = [Planned(p, store.status(p.config), predicted_cost(p.config)) for p in points]
+    planned = [
+        Planned(p, store.status(p.config), cost) for p, (cost, _) in zip(points, prospects, strict=True)
+    ]
     pending = [p for p in planned if force or p.status not in REUSED]
     pending.sort(key=lambda p: p.cost, reverse=True)
     # A single run stays in this process: starting another takes longer than many a run.

@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -97,6 +97,15 @@ def time_step(problem: Problem, parameters: Parameters, wave_speed: float) -> fl
     return parameters.courant * problem.step_spacing / wave_speed
 
 
+def check(problem: Problem, config, method) -> Iterator[str]:
+    """Complaints that need the problem: times asked for that the run does not reach."""
+    dt = time_step(problem, config.solve, method.wave_speed(config, problem))
+    end = dt * predicted_steps(problem, config, method)
+    for wanted in config.record.times:
+        if not 0.0 <= wanted <= end:
+            yield f"record.times={wanted:g}: {config.label} runs from 0 to {end:.6g} s"
+
+
 def predicted_steps(problem: Problem, config, method) -> int:
     """Steps of a run that is not stopped early."""
     dt = time_step(problem, config.solve, method.wave_speed(config, problem))
@@ -119,9 +128,7 @@ class Run:
         self.state[X], self.state[Y] = body.x, body.y
         self.state[VX], self.state[VY] = problem.velocity_x, problem.velocity_y
         self.state[RHO] = body.material.density
-        self.requested = sorted(
-            {round(t / self.dt) for t in config.record.times if t <= self.total * self.dt}
-        )
+        self.requested = sorted({round(t / self.dt) for t in config.record.times})
         self.solution = Solution(time_step=self.dt)
         self._rate = np.zeros_like(self.state)
         self._chunk = 1
@@ -140,6 +147,7 @@ class Run:
             self._snapshot(stage.name, step)
             if stage.action == "load":
                 loading_speed = self._system_speed()
+        self._snapshot_if_requested(step)
         return self.solution
 
     def _run_stage(self, stage: Stage, step: int, end: int, loading_speed: float | None) -> int:
@@ -155,8 +163,7 @@ class Run:
         # jumps between stages, and its integral must not smear the jump.
         self._sample(step)
         while step < end:
-            if step in self.requested:
-                self._snapshot(f"t={step * self.dt:.6g}", step)
+            self._snapshot_if_requested(step)
             stop = self._next_event(step, end)
             step, sound = self._chunked(step, stop)
             if not sound:
@@ -217,6 +224,10 @@ class Run:
         i, body = self.problem.tracked, self.problem.body
         moved = (self.state[X, i] - body.x[i], self.state[Y, i] - body.y[i])
         self.solution.history.append((step * self.dt, float(step), *moved, *totals))
+
+    def _snapshot_if_requested(self, step: int) -> None:
+        if step in self.requested:
+            self._snapshot(f"t={step * self.dt:.6g}", step)
 
     def _snapshot(self, label: str, step: int) -> None:
         self.solution.snapshots.append(Snapshot(label, step * self.dt, step, self.state.copy()))

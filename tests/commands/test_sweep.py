@@ -102,6 +102,10 @@ def test_wrong_input_ends_with_status_two_before_anything_runs(tmp_path):
         (["describe", "scene", "foo"], "scene=foo: there is"),
         (["results=/proc/x"], "results=/proc/x: cannot be written"),
         (["hydra/launcher=foo"], "hydra/launcher=foo"),
+        (
+            ["scene=plate", "record.times=[7.0]"],
+            "record.times=7: plate-thesis-h1.5-n9 runs from 0 to 6.5",
+        ),
     ],
 )
 def test_wrong_commands_are_answered_in_a_line(arguments, complaint, tmp_path, monkeypatch, capsys):
@@ -192,11 +196,13 @@ def test_a_damaged_record_is_run_again(tmp_path, monkeypatch, capsys):
 def test_from_python(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     settings = {"scene": "plate", "scene.periods": 0.3, "n": 5}
-    run = sphstudy.run(**settings, **{"record.times": [0.5, 1.0]})
+    run = sphstudy.run(**settings, **{"record.times": [0.0, 0.5, 1.0]})
     labels = [str(v) for v in run["snapshot_label"].values]
-    assert len(labels) == 3
+    assert len(labels) == 4
     assert labels[-1] == "vibrate"
-    np.testing.assert_allclose(run["snapshot_time"].values[:2], [0.5, 1.0], atol=float(run["time_step"]))
+    np.testing.assert_allclose(
+        run["snapshot_time"].values[:3], [0.0, 0.5, 1.0], atol=float(run["time_step"])
+    )
     dataset = sphstudy.sweep(h=[1.5, 1.7], **settings)
     assert list(dataset["h"].values) == [1.5, 1.7]
     (path,) = [

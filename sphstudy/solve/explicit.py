@@ -219,6 +219,7 @@ class Run:
             self.problem.body.mass,
             *self.problem.energy_compliance,
             self.problem.constraints,
+            self.amplitude_rate,
             pairs,
         )
         i, body = self.problem.tracked, self.problem.body

@@ -29,12 +29,13 @@ def _distance_squared(state, i, j):
 
 
 @compiled_exactly
-def measure(state, rate, mass, youngs_modulus, poisson_ratio, constraints, pairs):
+def measure(state, rate, mass, youngs_modulus, poisson_ratio, constraints, amplitude_rate, pairs):
     """Invariants of a state [8, N] with unconstrained, undamped rates [8, N].
 
     The strain energy ½ σ:ε m/ρ takes the strains from the stresses with the E and ν given (those that
     make Hooke's law look like plane stress). net_internal_force: |Σ m a| / Σ m |a|, zero to round-off
-    if every force has its reaction. constraint_power: what the constraints put in (W/m). Smallest
+    if every force has its reaction. constraint_power: what the constraints put in (W/m), moving with
+    target · `amplitude_rate`. Smallest
     spacing: over the pairs of the neighbour list (m).
     """
     speed_squared = p_x = p_y = spin = kinetic = strain = fastest = 0.0
@@ -55,10 +56,12 @@ def measure(state, rate, mass, youngs_modulus, poisson_ratio, constraints, pairs
         force_x += m * rate[VX, i]
         force_y += m * rate[VY, i]
         force_sum += m * np.hypot(rate[VX, i], rate[VY, i])
-    for i in constraints.x_index:
-        power -= mass[i] * rate[VX, i] * state[VX, i]
-    for i in constraints.y_index:
-        power -= mass[i] * rate[VY, i] * state[VY, i]
+    for k in range(constraints.x_index.size):
+        i = constraints.x_index[k]
+        power -= mass[i] * rate[VX, i] * constraints.x_target[k] * amplitude_rate
+    for k in range(constraints.y_index.size):
+        i = constraints.y_index[k]
+        power -= mass[i] * rate[VY, i] * constraints.y_target[k] * amplitude_rate
     closest = np.inf
     for r in range(pairs.start.size):
         for i in range(pairs.start[r], pairs.start[r] + pairs.length[r]):

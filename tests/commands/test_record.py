@@ -54,6 +54,14 @@ def test_energy_balance_is_measured(run):
     assert float(run["net_internal_force"]) < 1e-12
 
 
+def test_constraints_put_in_power_while_they_move_and_only_then(run):
+    """Two samples where loading ends: with the motion that ends, and without."""
+    step, power = run["history_step"].values, run["history_constraint_power"].values
+    assert np.count_nonzero(step == 600) == 2
+    assert (power[1 : np.argmax(step == 600) + 1] > 0.0).all()
+    assert (power[np.argmax(step == 600) + 1 :] == 0.0).all()
+
+
 def test_every_variable_has_a_name_and_a_unit(run):
     for name, variable in run.data_vars.items():
         assert variable.attrs.get("long_name"), name

@@ -42,7 +42,7 @@ def prospect(config: RunConfig) -> tuple[float, list[str]]:
     scene, method = scene_module(config.scene.kind), method_module(config.method.kind)
     solver, problem = solver_module(config.solve.name), scene.build(config)
     steps = solver.predicted_steps(problem, config, method)
-    cost = steps * scene.particles(config) * method.lattice_neighbours(config.h) / 2.0
+    cost = steps * scene.particles(config) * method.lattice_neighbours(config) / 2.0
     return cost, list(solver.check(problem, config, method))
 
 
@@ -108,6 +108,8 @@ def sweep(
     if not launcher and len(pending) <= 1:
         launcher = ["hydra/launcher=basic"]
     ready = hydra.launcher(task, launcher)
+    for p in pending if force else ():
+        store.checkpoint_path(p.point.config).unlink(missing_ok=True)
     if pending:
         jobs = [[*p.point.overrides, f"results={store.folder}"] for p in pending]
         costs = [(p.point.config, p.cost) for p in pending]

@@ -60,6 +60,8 @@ class Session:
             try:
                 composed = self._compose(choice)
                 results.add(str(composed.pop("results")))
+                if not (isinstance(seconds := composed.pop("checkpoint"), int | float) and seconds > 0):
+                    raise ConfigurationError([f"checkpoint={seconds}: should be a number greater than 0"])
                 points.append(Point(tuple(choice), validate(composed)))
             except ConfigurationError as error:
                 complaints |= dict.fromkeys(error.complaints)

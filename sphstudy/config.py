@@ -156,7 +156,7 @@ def _checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
 
 def _memory_complaint(config: RunConfig, scene: ModuleType, method: ModuleType) -> list[str]:
     particles = scene.particles(config)
-    needed = method.memory(particles, config.h)
+    needed = method.memory(particles, config)
     there = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     if needed <= there:
         return []

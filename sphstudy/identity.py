@@ -1,7 +1,8 @@
 """What a record's name rests on: the parameters of the run and the version of its numerics.
 
 Both versions, of numerics and of metrics, are derived from the sources: the code of the modules
-concerned and of everything in the package that they import, without docstrings and comments.
+concerned and of everything in the package that they import, without docstrings and comments. What a
+scene wants measured and shown belongs to neither: it changes no number.
 """
 
 import ast
@@ -13,6 +14,7 @@ from pathlib import Path
 from sphstudy.config import RunConfig, scene_module
 
 _PACKAGE = Path(__file__).parent
+_LISTS = {"METRICS", "HEADLINE"}
 
 
 def numerics_version(config: RunConfig) -> str:
@@ -27,7 +29,9 @@ def numerics_version(config: RunConfig) -> str:
 
 
 def metrics_version(config: RunConfig) -> str:
-    """Version of the metrics of the scene: if it changes, they are measured again from the fields."""
+    """Version of the scene's metrics and of what they read from records: if it changes, they are measured
+    again from the fields.
+    """
     names = scene_module(config.scene.kind).METRICS
     return _version(tuple(f"metrics.{name}" for name in names))
 
@@ -73,7 +77,7 @@ def _code(path: Path) -> str:
     tree = ast.parse(path.read_text())
     for node in ast.walk(tree):
         if isinstance(body := getattr(node, "body", None), list):
-            body[:] = [statement for statement in body if not _is_text(statement)]
+            body[:] = [s for s in body if not (_is_text(s) or _is_list(s))]
     return ast.unparse(tree)
 
 
@@ -82,4 +86,11 @@ def _is_text(statement: ast.AST) -> bool:
         isinstance(statement, ast.Expr)
         and isinstance(statement.value, ast.Constant)
         and isinstance(statement.value.value, str)
+    )
+
+
+def _is_list(statement: ast.AST) -> bool:
+    """Whether a scene lists here what it wants measured or shown."""
+    return isinstance(statement, ast.Assign) and any(
+        isinstance(target, ast.Name) and target.id in _LISTS for target in statement.targets
     )

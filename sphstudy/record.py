@@ -9,7 +9,7 @@ import xarray as xr
 from sphstudy.config import RunConfig, validate
 from sphstudy.metrics.metric import Metric
 from sphstudy.scenes.problem import Problem
-from sphstudy.solve.explicit import HISTORY, Solution
+from sphstudy.solve.stepping import HISTORY, Solution
 
 STATUS = ("missing", "done", "diverged", "failed", "timeout", "interrupted", "running")
 """Outcomes of a point; a record stores the position in this list."""

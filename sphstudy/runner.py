@@ -11,6 +11,7 @@ import xarray as xr
 from omegaconf import DictConfig, OmegaConf
 
 from sphstudy import identity, record
+from sphstudy.checkpoint_file import CheckpointFile
 from sphstudy.compile_timer import CompileTimer
 from sphstudy.config import RunConfig, method_module, scene_module, solver_module, validate
 from sphstudy.metrics.metric import Metric, measure
@@ -19,34 +20,43 @@ from sphstudy.provenance import provenance
 from sphstudy.store import Store, write
 
 
-def run_point(config: RunConfig, store: Store) -> xr.Dataset:
-    """Computes a point, writes its record and returns it."""
+def run_point(config: RunConfig, store: Store, checkpoint: float) -> xr.Dataset:
+    """Computes a point, from its last checkpoint if there is one, writes its record and returns it.
+
+    `checkpoint`: wall time between two checkpoints (s).
+    """
+    keeper = CheckpointFile(store.checkpoint_path(config), checkpoint)
     with Marker(store.marker_path(config)) as marker:
         started = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
         try:
-            run = _solved(config, marker)
+            run = _solved(config, marker, keeper)
         except Exception as error:
             store.log_path(config).write_text(traceback.format_exc())
             message = f"{type(error).__name__}: {error}".splitlines()[0]
             run = record.with_outcome(xr.Dataset(), "failed", message, {}, _attributes(config))
         run.attrs["date_created"] = started
         write(run, store.record_path(config))
+    keeper.remove()
     return run
 
 
-def _solved(config: RunConfig, marker: Marker) -> xr.Dataset:
+def _solved(config: RunConfig, marker: Marker, keeper: CheckpointFile) -> xr.Dataset:
     scene, method = scene_module(config.scene.kind), method_module(config.method.kind)
     solver = solver_module(config.solve.name)
     wall, cpu = time.perf_counter(), time.process_time()
     with CompileTimer() as compiling:
         problem = scene.build(config)
-        solution = solver.run(problem, config, method, marker.update)
+        solution = solver.run(problem, config, method, marker.update, keeper)
     cost = {
         "cpu_seconds": Metric(
-            time.process_time() - cpu - compiling.cpu, "s", "CPU time without compilation"
+            keeper.cpu_seconds + time.process_time() - cpu - compiling.cpu,
+            "s",
+            "CPU time without compilation",
         ),
         "wall_seconds": Metric(
-            time.perf_counter() - wall - compiling.wall, "s", "wall time without compilation"
+            keeper.wall_seconds + time.perf_counter() - wall - compiling.wall,
+            "s",
+            "wall time without compilation",
         ),
         "compile_seconds": Metric(compiling.wall, "s", "wall time spent compiling"),
         "steps": Metric(solution.steps, "1", "time steps"),
@@ -86,6 +96,6 @@ def _peak_memory() -> float:
 def task(composed: DictConfig) -> str:
     """Hydra's task: one point of a sweep, in whichever process the launcher chose."""
     values: Any = OmegaConf.to_container(composed, resolve=True)
-    store = Store(values.pop("results"))
-    run = run_point(validate(values), store)
+    store, checkpoint = Store(values.pop("results")), float(values.pop("checkpoint"))
+    run = run_point(validate(values), store, checkpoint)
     return record.STATUS[int(run["status"])]

@@ -2,6 +2,7 @@
 
 <results>/runs/<label>-<key>.nc             the record
 <results>/runs/<label>-<key>.running.json   while it is being computed
+<results>/runs/<label>-<key>.checkpoint     where a long run goes on after an interruption
 <results>/runs/<label>-<key>.log            traceback of a failed run
 """
 
@@ -45,6 +46,10 @@ class Store:
     def marker_path(self, config: RunConfig) -> Path:
         """The file that exists while the run is being computed."""
         return self.record_path(config).with_suffix(".running.json")
+
+    def checkpoint_path(self, config: RunConfig) -> Path:
+        """The last checkpoint of a run that takes longer than a checkpoint's interval."""
+        return self.record_path(config).with_suffix(".checkpoint")
 
     def log_path(self, config: RunConfig) -> Path:
         """Where a failed run leaves its traceback."""

@@ -45,9 +45,9 @@ def test_versions_cover_what_is_imported_and_nothing_else(config_of):
     assert identity.numerics_version(config_of("scene=plate")) != identity.numerics_version(config_of())
 
 
-def test_versions_ignore_comments_and_docstrings_but_not_code(tmp_path):
+def test_versions_ignore_comments_docstrings_and_what_is_measured_but_not_code(tmp_path):
     before = tmp_path / "before.py"
-    before.write_text('"""Doc."""\ndef f(x):\n    """More."""\n    return x + 1\n')
+    before.write_text('"""Doc."""\nMETRICS = ("one",)\ndef f(x):\n    """More."""\n    return x + 1\n')
     same = tmp_path / "same.py"
     same.write_text(
         textwrap.dedent('''

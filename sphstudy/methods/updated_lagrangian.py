@@ -32,6 +32,9 @@ class Parameters:
 
     name: str = described("name of the method")
     kind: str = described("module that builds it")
+    kernel: Literal["cubic", "wendland", "quintic"] = described(
+        "cubic spline (2.7) and Wendland C2, support 2h, or quintic spline, support 3h"
+    )
     xsph: float = number("µ of the smoothed velocity (2.20); 0: off", ge=0, le=1)
     viscosity_linear: float = number("α of the artificial viscosity (2.21)", ge=0)
     viscosity_quadratic: float = number("β of the artificial viscosity (2.21)", ge=0)
@@ -54,9 +57,14 @@ class Parameters:
     skin: float = number("skin of the neighbour list, in particle spacings", gt=0, le=1)
 
 
-def lattice_neighbours(h: float) -> int:
-    """Neighbours strictly inside the support of a particle on a square lattice, smoothing radius h."""
-    radius = kernel.SUPPORT * h
+def _support(config) -> float:
+    """Radius of the kernel's support, in particle spacings."""
+    return config.h * kernel.KERNELS[config.method.kernel].support
+
+
+def lattice_neighbours(config) -> int:
+    """Neighbours of a particle of a square lattice that lie strictly inside its support."""
+    radius = _support(config)
     reach = np.arange(-math.ceil(radius), math.ceil(radius) + 1)
     distance_squared = reach[:, None] ** 2 + reach[None, :] ** 2
     return int(np.count_nonzero(distance_squared < radius**2 * (1.0 - 1e-12))) - 1
@@ -64,19 +72,20 @@ def lattice_neighbours(h: float) -> int:
 
 def check(config) -> Iterator[str]:
     """Complaints about h and n."""
-    found = lattice_neighbours(config.h)
+    found = lattice_neighbours(config)
     if found < FEWEST_NEIGHBOURS:
+        least = math.sqrt(2) * config.h / _support(config)
         yield (
             f"h={config.h:g}: too few neighbours for this method ({found}, at least "
-            f"{FEWEST_NEIGHBOURS} needed: h > {math.sqrt(2) / kernel.SUPPORT:.4g})"
+            f"{FEWEST_NEIGHBOURS} needed: h > {least:.4g})"
         )
-    if kernel.SUPPORT * config.h >= config.n:
+    if _support(config) >= config.n:
         yield f"h={config.h:g}: the support is wider than the body's {config.n} rows"
 
 
-def memory(particles: int, h: float) -> float:
+def memory(particles: int, config) -> float:
     """Estimated peak memory of a run (bytes)."""
-    pairs = 0.5 * particles * math.pi * (kernel.SUPPORT * h + 0.5) ** 2
+    pairs = 0.5 * particles * math.pi * (_support(config) + 0.5) ** 2
     return particles * BYTES_PER_PARTICLE + pairs * BYTES_PER_PAIR
 
 
@@ -111,12 +120,14 @@ def model(problem: Problem, config, crack_nodes: int) -> Model:
     """The right-hand side of the problem with the first `crack_nodes` nodes of its crack open."""
     method, body = config.method, problem.body
     length = config.h * body.mean_spacing
-    spacing_kernel = float(kernel.value(1.0 / config.h))
+    shape = kernel.KERNELS[method.kernel]
+    spacing_kernel = float(kernel.value(shape, 1.0 / config.h))
     viscous = method.viscosity_linear > 0.0 or method.viscosity_quadratic > 0.0
     return Model(
         mass=body.mass,
+        kernel=shape,
         smoothing_length=length,
-        normalisation=kernel.normalisation(length),
+        normalisation=shape.normalisation(length),
         skin=method.skin * min(body.spacing_x, body.spacing_y),
         lame_modulus=body.material.lame_modulus,
         shear_modulus=body.material.shear_modulus,

@@ -53,7 +53,7 @@ def _smoothing_terms(model, data, i0, j0, count, terms):
         dx = xi[k] - xj[k]
         dy = yi[k] - yj[k]
         q = np.sqrt(dx * dx + dy * dy) * per_length
-        weight = scale * kernel.value(q) / (rho_i[k] + rho_j[k])
+        weight = scale * kernel.value(model.kernel, q) / (rho_i[k] + rho_j[k])
         term_x[k] = (uj[k] - ui[k]) * weight
         term_y[k] = (vj[k] - vi[k]) * weight
 
@@ -83,10 +83,10 @@ def _artificial_stresses(artificial, row, data, begin, count):
 
 
 @compiled_inner
-def _artificial_factor(artificial, q):
+def _artificial_factor(artificial, shape, q):
     if artificial is None:
         return 0.0
-    return closeness(artificial, kernel.value(q))
+    return closeness(artificial, kernel.value(shape, q))
 
 
 @compiled_inner
@@ -123,7 +123,7 @@ def _momentum_terms(model, data, i0, j0, count, terms):
         distance_squared = max(dx * dx + dy * dy, tiny)
         distance = np.sqrt(distance_squared)
         q = distance * per_length
-        factor = scale * kernel.slope(q) / distance
+        factor = scale * kernel.slope(model.kernel, q) / distance
         gx = factor * dx
         gy = factor * dy
         pi = _viscous_pressure(
@@ -134,7 +134,7 @@ def _momentum_terms(model, data, i0, j0, count, terms):
             c_i[k] + c_j[k],
             rho_i[k] + rho_j[k],
         )
-        f = _artificial_factor(model.artificial, q)
+        f = _artificial_factor(model.artificial, model.kernel, q)
         specific = specific_i[k] * specific_j[k]
         xx = (xx_i[k] + xx_j[k] + f * (rxx_i[k] + rxx_j[k])) * specific - pi
         yy = (yy_i[k] + yy_j[k] + f * (ryy_i[k] + ryy_j[k])) * specific - pi

@@ -10,10 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from sphstudy.compilation import compiled, compiled_exactly, compiled_inner
-from sphstudy.sph import kernel, neighbours, pair_sums
+from sphstudy.sph import neighbours, pair_sums
 from sphstudy.sph.artificial_stress import ArtificialStress, principal_pressure
 from sphstudy.sph.constraints import Constraints, prescribe, release
 from sphstudy.sph.crack import Crack
+from sphstudy.sph.kernel import Kernel
 from sphstudy.sph.neighbours import Neighbours
 from sphstudy.sph.pair_sums import Workspace
 from sphstudy.sph.viscosity import Viscosity
@@ -28,13 +29,14 @@ LONGEST_STRIDE = 0.125
 class Model(NamedTuple):
     """Everything the right-hand side needs besides the state; optional terms are None.
 
-    mass [N] (kg/m); smoothing_length (m); normalisation α_k (1/m²); skin (m) of the neighbour list;
-    lame_modulus, shear_modulus, bulk_modulus (Pa); xsph: µ of (2.20); damping: γ of (2.23) (1/s);
-    smoothing: η of (2.26). `prescribe_smoothed`: constrained particles' ṽ is prescribed too;
-    `prescribe_again`: constrained velocities are prescribed again after the smearing.
+    mass [N] (kg/m); smoothing_length (m); normalisation α of the kernel (1/m²); skin (m) of the
+    neighbour list; lame_modulus, shear_modulus, bulk_modulus (Pa); xsph: µ of (2.20); damping: γ of
+    (2.23) (1/s); smoothing: η of (2.26). `prescribe_smoothed`: constrained particles' ṽ is prescribed
+    too; `prescribe_again`: constrained velocities are prescribed again after the smearing.
     """
 
     mass: np.ndarray
+    kernel: Kernel
     smoothing_length: float
     normalisation: float
     skin: float
@@ -67,11 +69,15 @@ def build_neighbours(model: Model, state: np.ndarray, stride: float = 0.0) -> Ne
     """Neighbour list of the state [8, N], good for at least one step in which nothing moves farther than
     `stride` (m). None if that is more than an eighth of the support: no solid moves so in a step.
     """
-    support = kernel.SUPPORT * model.smoothing_length
-    if not stride <= LONGEST_STRIDE * support:
+    if not stride <= LONGEST_STRIDE * model.kernel.support * model.smoothing_length:
         return None
-    skin = max(model.skin, 4.0 * stride)
-    return neighbours.build(state[X], state[Y], support, skin, model.crack)
+    return neighbours_at(model, state[X], state[Y], max(model.skin, 4.0 * stride))
+
+
+def neighbours_at(model: Model, x: np.ndarray, y: np.ndarray, skin: float) -> Neighbours:
+    """Neighbour list of the configuration x, y [N] (m) with this skin (m)."""
+    support = model.kernel.support * model.smoothing_length
+    return neighbours.build(x, y, support, skin, model.crack)
 
 
 @compiled_exactly

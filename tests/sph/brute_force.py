@@ -9,17 +9,31 @@ from itertools import pairwise
 import numpy as np
 
 
-def kernel(r, h):
-    """W (2.7) at distances r (m)."""
+def kernel(shape, r, h):
+    """W at distances r (m): (2.7), Wendland C2, or the quintic spline, in the books' pieces."""
     q = r / h
+    if shape.wendland is not None:
+        return (
+            7.0 / (4.0 * np.pi * h**2) * np.where(q <= 2.0, (1.0 - q / 2.0) ** 4 * (2.0 * q + 1.0), 0.0)
+        )
+    if shape.quintic is not None:
+        three, two, one = (3.0 - q) ** 5, (2.0 - q) ** 5, (1.0 - q) ** 5
+        pieces = [three - 6.0 * two + 15.0 * one, three - 6.0 * two, three]
+        return 7.0 / (478.0 * np.pi * h**2) * np.select([q < 1.0, q < 2.0, q < 3.0], pieces)
     inner = 2.0 / 3.0 - q**2 + q**3 / 2.0
     outer = (2.0 - q) ** 3 / 6.0
     return 15.0 / (7.0 * np.pi * h**2) * np.where(q <= 1.0, inner, np.where(q <= 2.0, outer, 0.0))
 
 
-def kernel_slope(r, h):
+def kernel_slope(shape, r, h):
     """dW/dr at distances r (m)."""
     q = r / h
+    if shape.wendland is not None:
+        return 7.0 / (4.0 * np.pi * h**3) * np.where(q <= 2.0, -5.0 * q * (1.0 - q / 2.0) ** 3, 0.0)
+    if shape.quintic is not None:
+        three, two, one = (3.0 - q) ** 4, (2.0 - q) ** 4, (1.0 - q) ** 4
+        pieces = [three - 6.0 * two + 15.0 * one, three - 6.0 * two, three]
+        return -35.0 / (478.0 * np.pi * h**3) * np.select([q < 1.0, q < 2.0, q < 3.0], pieces)
     inner = -2.0 * q + 1.5 * q**2
     outer = -((2.0 - q) ** 2) / 2.0
     return 15.0 / (7.0 * np.pi * h**3) * np.where(q <= 1.0, inner, np.where(q <= 2.0, outer, 0.0))
@@ -62,15 +76,15 @@ def artificial_stress(xx, yy, xy, zeta):
 def rates(model, state):
     """Derivative [8, N] of the state, and the smoothed velocity [2, N]; no constraints, no damping."""
     x, y, vx, vy, rho, sxx, syy, sxy = state
-    m, h = model.mass, model.smoothing_length
+    m, h, shape = model.mass, model.smoothing_length, model.kernel
     dx, dy = x[:, None] - x[None, :], y[:, None] - y[None, :]
     r = np.hypot(dx, dy)
-    near = (r < 2.0 * h) & sees(x, y, model.crack)
+    near = (r < shape.support * h) & sees(x, y, model.crack)
     np.fill_diagonal(near, False)
-    w = np.where(near, kernel(r, h), 0.0)
+    w = np.where(near, kernel(shape, r, h), 0.0)
     safe = np.where(r > 0.0, r, 1.0)
-    gx = np.where(near, kernel_slope(r, h) * dx / safe, 0.0)
-    gy = np.where(near, kernel_slope(r, h) * dy / safe, 0.0)
+    gx = np.where(near, kernel_slope(shape, r, h) * dx / safe, 0.0)
+    gy = np.where(near, kernel_slope(shape, r, h) * dy / safe, 0.0)
 
     if model.xsph is not None:
         weight = m[None, :] * w / (0.5 * (rho[:, None] + rho[None, :]))
@@ -83,8 +97,8 @@ def rates(model, state):
     stress = [s[:, None] + s[None, :] for s in (sxx, syy, sxy)]
     if model.artificial is not None:
         pieces = artificial_stress(sxx, syy, sxy, model.artificial.fraction)
-        spacing_kernel = model.artificial.kernel_at_spacing * 15.0 / (7.0 * np.pi * h**2)
-        f = (kernel(r, h) / spacing_kernel) ** model.artificial.exponent
+        spacing_kernel = model.artificial.kernel_at_spacing * shape.normalisation(h)
+        f = (kernel(shape, r, h) / spacing_kernel) ** model.artificial.exponent
         stress = [s + (p[:, None] + p[None, :]) * f for s, p in zip(stress, pieces, strict=True)]
     stress = [s / (rho[:, None] * rho[None, :]) for s in stress]
     if model.viscosity is not None:

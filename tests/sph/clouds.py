@@ -44,13 +44,15 @@ def middle_crack(positions):
     return Crack(np.array(below, np.int64), np.array(above, np.int64))
 
 
-def model(rng, positions, terms=TERMS, constraints=FREE, damping=None, smoothing=None):
+def model(rng, positions, terms=TERMS, constraints=FREE, damping=None, smoothing=None, shape="cubic"):
     """A model of unequal masses with the terms named."""
     count, length = positions.shape[1], 1.5
+    shape = kernel.KERNELS[shape]
     return Model(
         mass=rng.uniform(0.5, 1.5, count),
+        kernel=shape,
         smoothing_length=length,
-        normalisation=kernel.normalisation(length),
+        normalisation=shape.normalisation(length),
         skin=0.15,
         lame_modulus=1.3,
         shear_modulus=0.7,
@@ -60,7 +62,7 @@ def model(rng, positions, terms=TERMS, constraints=FREE, damping=None, smoothing
         prescribe_again=True,
         xsph=0.5 if "xsph" in terms else None,
         viscosity=Viscosity(1.0, 2.0) if "viscosity" in terms else None,
-        artificial=ArtificialStress(0.3, 4, float(kernel.value(1.0 / 1.5)))
+        artificial=ArtificialStress(0.3, 4, float(kernel.value(shape, 1.0 / 1.5)))
         if "artificial" in terms
         else None,
         damping=damping,

@@ -63,6 +63,15 @@ def test_equals_the_brute_force_twin_term_by_term(rng, terms):
     assert_close(rate, brute_force.rates(made, state)[0])
 
 
+@pytest.mark.interpreted
+@pytest.mark.parametrize("shape", ["wendland", "quintic"])
+def test_equals_the_brute_force_twin_with_other_kernels(rng, shape):
+    positions = random_cloud(rng, 40)
+    made, state = model(rng, positions, shape=shape), random_state(rng, positions)
+    rate, *_ = evaluate(made, state)
+    assert_close(rate, brute_force.rates(made, state)[0])
+
+
 def test_internal_forces_keep_linear_momentum_to_round_off(rng):
     positions = random_cloud(rng)
     made, state = model(rng, positions), random_state(rng, positions)

@@ -10,7 +10,14 @@ sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids 
   sphstudy h=1.5 n=40                              one run (scene=mode1 method=thesis by default)
   sphstudy -m h=1.3,1.5,1.7,1.9 n=40,50,60         a sweep: every combination, in parallel
   sphstudy -m scene=plate h=1.5,1.7 n=9,15,21      the same in another scene
-  sphstudy study mode1                             a named study: the grids in studies/mode1.yaml
+  sphstudy study mode1                             a named study: run what is missing, compare, report
+  sphstudy study thesis --dry-run                  what would run, why, and what it would cost
+  sphstudy report mode1                            its figures and page again, from stored data
+  sphstudy compare mode1                           against the stored reference; exit status 1 outside
+  sphstudy compare mode1 printed                   against the values that the thesis prints
+  sphstudy compare before.nc after.nc tolerance=1e-6    two datasets, cell by cell
+  sphstudy measure mode1                           metrics again from stored fields
+  sphstudy reference mode1                         stored results become the stored reference
   sphstudy status                                  what the results folder holds, run by run
   sphstudy list                                    scenes, methods, solvers, metrics, studies
   sphstudy describe scene plate                    every setting of one of them: value, unit, meaning
@@ -20,20 +27,30 @@ settings (key=value, before or after -m; several values with commas make a sweep
   h=1.5 n=40                                       relative smoothing radius; resolution
   scene.E=2e6  solve.courant=0.4  record.times=[1.5]   anything that `describe` shows
   results=FOLDER                                   where records go (default: results)
+  checkpoint=60                                    seconds between two checkpoints of a long run
   hydra/launcher=joblib hydra.launcher.n_jobs=4    how many runs at once (default: one per core)
 
 flags
   -m, --multirun   run every combination of the values given
   -f, --force      run again what is already there
+  --dry-run        with `study`: run nothing
   -h, --help       this text            --version   the version
 
 A run that is already in the results folder is not run again. Each run leaves one netCDF file in
-results/runs, a sweep one labelled dataset in results/sweeps.
-Exit status: 0 all points done (a diverged point is a result), 1 a point failed, 2 wrong input,
-130 interrupted.
+results/runs, a sweep one labelled dataset in results/sweeps, a study a page in results/reports.
+Exit status: 0 all points done (a diverged point is a result), 1 a point failed or a metric lies outside
+its accepted interval, 2 wrong input, 130 interrupted.
 """
 
-_FLAGS = {"-m": "sweep", "--multirun": "sweep", "-f": "force", "--force": "force"}
+_FLAGS = {
+    "-m": "sweep",
+    "--multirun": "sweep",
+    "-f": "force",
+    "--force": "force",
+    "--dry-run": "dry run",
+}
+_LOOKING = ("status", "list", "describe")
+_REVIEWING = ("report", "compare", "measure", "reference")
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -59,10 +76,15 @@ def _command(arguments: list[str]) -> int:
 
         print(__version__)
         return 0
-    if arguments and arguments[0] in ("status", "list", "describe"):
+    command = arguments[0] if arguments else ""
+    if command in _LOOKING:
         from sphstudy import inspection
 
-        return getattr(inspection, f"{arguments[0]}_command")(arguments[1:])
+        return getattr(inspection, f"{command}_command")(arguments[1:])
+    if command in _REVIEWING:
+        from sphstudy import review
+
+        return getattr(review, f"{command}_command")(arguments[1:])
     return _run(arguments)
 
 
@@ -76,11 +98,13 @@ def _run(arguments: list[str]) -> int:
         raise ConfigurationError(
             [f"{a}: neither a command, a flag nor key=value (see sphstudy --help)" for a in unknown]
         )
+    if "dry run" in flags and not named:
+        raise ConfigurationError(["--dry-run: goes with study"])
     from sphstudy import batch
 
     force = "force" in flags
     if named:
-        return batch.study_command(overrides, force)
+        return batch.study_command(overrides, force, "dry run" in flags)
     return batch.run_command(overrides, many="sweep" in flags, force=force)
 
 

@@ -1,14 +1,12 @@
 """The program from Python: the same runs, records and datasets as on the command line."""
 
-from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
 from sphstudy import batch
 from sphstudy.composition import session
-from sphstudy.config import ConfigurationError
-from sphstudy.store import Store
+from sphstudy.store import Store, read_dataset
 
 
 def run(**settings: Any) -> xr.Dataset:
@@ -44,12 +42,7 @@ def open(name: str, results: str = "results") -> xr.Dataset:
 
     Raises ConfigurationError if there is none.
     """
-    candidates = [Path(name), Path(results) / "sweeps" / f"{name}.nc"]
-    for path in candidates:
-        if path.is_file():
-            with xr.open_dataset(path, engine="netcdf4") as dataset:
-                return dataset.load()
-    raise ConfigurationError([f"{name}: there is neither {' nor '.join(map(str, candidates))}"])
+    return read_dataset(name, results)
 
 
 def _overrides(settings: dict[str, Any], swept: bool) -> list[str]:

@@ -1,6 +1,7 @@
 """Many runs: what is there is kept, what is missing is run, longest first, all in one dataset."""
 
 import signal
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -9,41 +10,44 @@ from pathlib import Path
 import xarray as xr
 from hydra.core.utils import setup_globals
 from joblib.externals.loky import get_reusable_executor
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
 
-from sphstudy import collect, study
+from sphstudy import collect, review, study
+from sphstudy.blocks import all_points
 from sphstudy.composition import Point, Session, launcher_overrides, session
-from sphstudy.config import (
-    ConfigurationError,
-    RunConfig,
-    method_module,
-    scene_module,
-    solver_module,
-)
-from sphstudy.display import display
+from sphstudy.config import ConfigurationError
+from sphstudy.display import display, duration
+from sphstudy.prediction import prospect, rates
 from sphstudy.record import STATUS
 from sphstudy.runner import task
 from sphstudy.store import REUSED, Store
+from sphstudy.tables import console, print_tables
 
 
 @dataclass(frozen=True)
 class Planned:
-    """A point, the status that the store has of it, and its predicted cost in arbitrary units."""
+    """A point, the status that the store has of it, its cost, and its predicted CPU time (s)."""
 
     point: Point
     status: str
     cost: float
+    seconds: float
 
 
-def prospect(config: RunConfig) -> tuple[float, list[str]]:
-    """Cost of a run, and what the solver has to complain about it once it sees the problem.
+def plan(points: list[Point], store: Store) -> list[Planned]:
+    """What is known of the points before anything runs.
 
-    The cost is steps times pairs: enough to order runs and to share out the time left.
+    Raises ConfigurationError with what solvers have to complain about them.
     """
-    scene, method = scene_module(config.scene.kind), method_module(config.method.kind)
-    solver, problem = solver_module(config.solve.name), scene.build(config)
-    steps = solver.predicted_steps(problem, config, method)
-    cost = steps * scene.particles(config) * method.lattice_neighbours(config) / 2.0
-    return cost, list(solver.check(problem, config, method))
+    prospects = [prospect(point.config) for point in points]
+    if complaints := [complaint for _, found in prospects for complaint in found]:
+        raise ConfigurationError(complaints)
+    known = rates(store)
+    return [
+        Planned(p, store.status(p.config), cost, known.seconds(p.config, cost))
+        for p, (cost, _) in zip(points, prospects, strict=True)
+    ]
 
 
 def run_command(arguments: list[str], many: bool, force: bool) -> int:
@@ -54,33 +58,53 @@ def run_command(arguments: list[str], many: bool, force: bool) -> int:
     with session() as hydra:
         points, folder = hydra.points(arguments, many)
         dataset, path = sweep(hydra, points, Store(folder), launcher_overrides(arguments), force)
-    return _report(dataset, path, points)
+    return _report(dataset, path)
 
 
-def study_command(arguments: list[str], force: bool) -> int:
-    """`sphstudy study NAME [key=value …]`: all points of a named study. Returns the exit status."""
+def study_command(arguments: list[str], force: bool, dry_run: bool) -> int:
+    """`sphstudy study NAME [key=value …]`: all points of a named study, then comparison and report.
+
+    With `dry_run` only tells what would run and what it would cost. Returns the exit status.
+    """
     if not arguments or "=" in arguments[0]:
         raise ConfigurationError([f"study: name one of {', '.join(study.names())}"])
     name, overrides = arguments[0], arguments[1:]
+    settings = [a for a in overrides if a not in launcher_overrides(overrides)]
     with session() as hydra:
-        points, folder = study_points(hydra, name, overrides)
-        store, launcher = Store(folder), launcher_overrides(overrides)
-        dataset, path = sweep(hydra, points, store, launcher, force, name)
-    return _report(dataset, path, points)
+        points, folder, skipped = all_points(hydra, name, settings)
+        for complaint in skipped:
+            print(f"left out: {complaint}")
+        store = Store(folder)
+        if dry_run:
+            print_plan(plan(points, store), force)
+            return 0
+        called = review.report_name(name, settings)
+        dataset, path = sweep(hydra, points, store, launcher_overrides(overrides), force, called)
+        status = _report(dataset, path)
+        if study.load(name).forbid_diverged and (dataset["status"] == STATUS.index("diverged")).any():
+            print("a point diverged, which this study forbids")
+            status = 1
+        return max(status, review.review(hydra, name, settings, folder))
 
 
-def study_points(hydra: Session, name: str, overrides: list[str]) -> tuple[list[Point], str]:
-    """All points of a named study, each once, and the folder of results."""
-    found: dict[str, Point] = {}
-    folder = ""
-    for grid in study.grids(name):
-        given = {override.partition("=")[0] for override in overrides}
-        kept = [setting for setting in grid if setting.partition("=")[0] not in given]
-        points, folder = hydra.points([*kept, *overrides], sweep=True)
-        found |= {str(point.config): point for point in points}
-    if not found:
-        raise ConfigurationError([f"study {name}: no points"])
-    return list(found.values()), folder
+def print_plan(planned: list[Planned], force: bool) -> None:
+    """A table of the points: whether they would run, why, and the CPU time predicted."""
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    for heading in ("point", "would run", "because", "CPU (s)"):
+        table.add_column(heading, justify="right" if heading.startswith("CPU") else "left")
+    for p in sorted(planned, key=lambda p: -p.seconds):
+        runs = force or p.status not in REUSED
+        reason = "forced" if force and p.status in REUSED else f"stored: {p.status}"
+        if p.status == "missing":
+            reason = "not in the store"
+        table.add_row(p.point.config.label, "yes" if runs else "no", reason, f"{p.seconds:.1f}")
+    console().print(table)
+    print(_prediction([p for p in planned if force or p.status not in REUSED]))
+
+
+def _prediction(pending: list[Planned]) -> str:
+    seconds = sum(p.seconds for p in pending)
+    return f"{len(pending)} runs to do, about {duration(seconds)} of CPU time"
 
 
 def sweep(
@@ -95,13 +119,8 @@ def sweep(
 
     Returns the combined dataset and the file it was written to, called `name` if given.
     """
-    prospects = [prospect(p.config) for p in points]
-    if complaints := [complaint for _, found in prospects for complaint in found]:
-        raise ConfigurationError(complaints)
+    planned = plan(points, store)
     store.prepare()
-    planned = [
-        Planned(p, store.status(p.config), cost) for p, (cost, _) in zip(points, prospects, strict=True)
-    ]
     pending = [p for p in planned if force or p.status not in REUSED]
     pending.sort(key=lambda p: p.cost, reverse=True)
     # A single run stays in this process: starting another takes longer than many a run.
@@ -111,6 +130,7 @@ def sweep(
     for p in pending if force else ():
         store.checkpoint_path(p.point.config).unlink(missing_ok=True)
     if pending:
+        print(_prediction(pending), file=sys.stderr)
         jobs = [[*p.point.overrides, f"results={store.folder}"] for p in pending]
         costs = [(p.point.config, p.cost) for p in pending]
         with _clean_interrupt(), display(costs, store, reused=len(planned) - len(pending)):
@@ -119,8 +139,8 @@ def sweep(
     return collect.collect([p.config for p in points], store, name)
 
 
-def _report(dataset: xr.Dataset, path: Path, points: list[Point]) -> int:
-    collect.print_tables(dataset, [p.config for p in points])
+def _report(dataset: xr.Dataset, path: Path) -> int:
+    print_tables(dataset)
     print(f"dataset: {path}")
     failed = int((dataset["status"] == STATUS.index("failed")).sum())
     if failed:

@@ -32,6 +32,10 @@ class Point:
     config: RunConfig
 
 
+class _NotValid(ConfigurationError):
+    """A point that was composed but does not make a run."""
+
+
 class Session:
     """Hydra, ready to compose configurations from `conf/` and to launch runs."""
 
@@ -40,10 +44,13 @@ class Session:
         self._parser = OverridesParser.create(config_loader=self._loader)
         self._composed: dict[tuple[str, ...], dict[str, Any]] = {}
 
-    def points(self, arguments: list[str], sweep: bool) -> tuple[list[Point], str]:
+    def points(
+        self, arguments: list[str], sweep: bool, skipped: list[str] | None = None
+    ) -> tuple[list[Point], str]:
         """All points that the overrides span, validated, and the folder of their results.
 
-        Raises ConfigurationError with all complaints. Without `sweep`, a list of values is one.
+        Raises ConfigurationError with all complaints. Without `sweep`, a list of values is one. Given a
+        list `skipped`, points that are not valid are left out, and the complaints added to it.
         """
         overrides = self._parse([a for a in arguments if a not in launcher_overrides(arguments)])
         if not sweep:
@@ -62,7 +69,12 @@ class Session:
                 results.add(str(composed.pop("results")))
                 if not (isinstance(seconds := composed.pop("checkpoint"), int | float) and seconds > 0):
                     raise ConfigurationError([f"checkpoint={seconds}: should be a number greater than 0"])
-                points.append(Point(tuple(choice), validate(composed)))
+                points.append(Point(tuple(choice), self._validated(composed)))
+            except _NotValid as error:
+                if skipped is None:
+                    complaints |= dict.fromkeys(error.complaints)
+                else:
+                    skipped += error.complaints
             except ConfigurationError as error:
                 complaints |= dict.fromkeys(error.complaints)
             except (HydraException, OmegaConfBaseException) as error:
@@ -72,6 +84,12 @@ class Session:
         if complaints:
             raise ConfigurationError(list(complaints))
         return points, results.pop()
+
+    def _validated(self, composed: dict[str, Any]) -> RunConfig:
+        try:
+            return validate(composed)
+        except ConfigurationError as error:
+            raise _NotValid(error.complaints) from None
 
     def _parse(self, arguments: list[str]) -> list[Override]:
         complaints = []

@@ -55,19 +55,24 @@ class RunConfig:
 
     def flat(self) -> dict[str, Any]:
         """The same with dotted keys; `scene`, `method`, `solve` stand for their names."""
-        flat: dict[str, Any] = {}
-        for key, value in self.as_dict().items():
-            if isinstance(value, dict):
-                flat |= {f"{key}.{inner}": v for inner, v in value.items() if inner != "name"}
-                flat |= {key: value["name"]} if "name" in value else {}
-            else:
-                flat[key] = value
-        return flat
+        return flattened(self.as_dict())
 
     @property
     def label(self) -> str:
         """Short name for people: scene, method, h and n."""
         return f"{self.scene.name}-{self.method.name}-h{self.h:g}-n{self.n}"
+
+
+def flattened(nested: dict[str, Any]) -> dict[str, Any]:
+    """A configuration with dotted keys; `scene`, `method`, `solve` stand for their names."""
+    flat: dict[str, Any] = {}
+    for key, value in nested.items():
+        if isinstance(value, dict):
+            flat |= {f"{key}.{inner}": v for inner, v in value.items() if inner != "name"}
+            flat |= {key: value["name"]} if "name" in value else {}
+        else:
+            flat[key] = value
+    return flat
 
 
 def configuration_folder() -> Path:

@@ -85,7 +85,7 @@ class _Board:
         elapsed = time.monotonic() - self.started
         if done < 0.01 or elapsed < 2.0:
             return "time left unknown yet"
-        return f"about {_duration(elapsed * (1.0 - done) / done)} left"
+        return f"about {duration(elapsed * (1.0 - done) / done)} left"
 
     def headline(self) -> str:
         """One line: how many are done, and how long the rest will take."""
@@ -158,7 +158,8 @@ def _follow_live(board: _Board, console: Console, stop: threading.Event) -> None
             live.update(board.picture(), refresh=True)
 
 
-def _duration(seconds: float) -> str:
+def duration(seconds: float) -> str:
+    """A duration as people say it."""
     if seconds < 90:
         return f"{seconds:.0f} s"
     if seconds < 5400:

@@ -82,6 +82,19 @@ def read(path: Path) -> xr.Dataset | None:
         return None
 
 
+def read_dataset(name: str, results: str | Path) -> xr.Dataset:
+    """A combined dataset, by file or by the name it has in a folder of results.
+
+    Raises ConfigurationError if there is none.
+    """
+    candidates = [Path(name), Path(results) / "sweeps" / f"{name}.nc"]
+    for path in candidates:
+        if path.is_file():
+            with xr.open_dataset(path, engine="netcdf4") as dataset:
+                return dataset.load()
+    raise ConfigurationError([f"{name}: there is neither {' nor '.join(map(str, candidates))}"])
+
+
 def write(dataset: xr.Dataset, path: Path) -> None:
     """Writes a dataset so that `path` holds either the old file or the whole new one."""
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,13 +1,23 @@
-"""Named studies: a YAML file in `studies/` with blocks, each a grid of settings.
+"""Named studies: a YAML file in `studies/`, the only thing that a new study needs.
 
     title: what it is
-    blocks:
-      - {scene: mode1, method: thesis, h: [1.3, 1.5], n: [40, 50, 60]}
-    include: [plate]        # blocks of other studies, optional
+    blocks:                     # named grids of settings; a list is swept
+      grid: {scene: mode1, method: thesis, h: [1.3, 1.5], n: [40, 50, 60]}
+      options:                  # `vary`: each of these on its own, everything else as in the block
+        {scene: mode1, h: 1.5, n: 40, vary: {scene.frame_layers: [1, 4], method.visibility: exclusive}}
+    include: [plate]            # studies that belong to this one: run, compared and shown with it
+    shows: [choices]            # studies shown with it as far as their points are stored, never run by it
+    figures: [crack.release_rates]     # module.function of sphstudy/report/figures
+    claims: [C1, C2]            # of sphstudy/claims
+    unstable:                   # cells whose numbers nothing may be judged by
+      - {where: {h: 1.3, n: [15, 21]}, reason: why}
+    skip_invalid: true          # leave out cells that are not valid instead of refusing the study
+    forbid_diverged: true       # a diverged point makes the exit status 1
 
-A list in a block is swept; to give a setting that is itself a list, write it as a string: "[1.5, 3]".
+All but the title are optional. To give a setting that is itself a list, write it as a string: "[1.5, 3]".
 """
 
+import itertools
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +28,22 @@ from sphstudy.config import ConfigurationError
 from sphstudy.parameters import described, parameters
 
 Setting = int | float | str | bool | None
+Values = Setting | list[Setting]
+
+
+@parameters
+class Unstable:
+    """Cells that sit in an instability: their numbers react to anything, rounding included."""
+
+    where: dict[str, Values] = described("settings of the cells; a list: any of these")
+    reason: str = described("why nothing is judged there")
+
+    def holds(self, flat: dict[str, Any]) -> bool:
+        """Whether a point with these settings (flat configuration) is one of the cells."""
+        return all(
+            flat.get(key) in (value if isinstance(value, list) else [value])
+            for key, value in self.where.items()
+        )
 
 
 @parameters
@@ -25,8 +51,26 @@ class Study:
     """What a study file holds."""
 
     title: str = described("what it is")
-    blocks: list[dict[str, Setting | list[Setting]]] = described("grids of settings")
-    include: list[str] = described("studies whose blocks belong to this one")
+    blocks: dict[str, dict[str, Values | dict[str, Values]]] = described("named grids of settings")
+    include: list[str] = described("studies that belong to this one")
+    shows: list[str] = described("studies shown with this one, as far as they are stored")
+    figures: list[str] = described("figures, module.function")
+    claims: list[str] = described("claims checked, by id")
+    unstable: list[Unstable] = described("cells that sit in an instability")
+    skip_invalid: bool = described("leave out cells that are not valid")
+    forbid_diverged: bool = described("whether a diverged point counts as failed")
+
+
+_OPTIONAL: dict[str, Any] = {
+    "blocks": {},
+    "include": [],
+    "shows": [],
+    "figures": [],
+    "claims": [],
+    "unstable": [],
+    "skip_invalid": False,
+    "forbid_diverged": False,
+}
 
 
 def folder() -> Path:
@@ -46,7 +90,7 @@ def load(name: str) -> Study:
         raise ConfigurationError([f"study {name}: there is {', '.join(names())}"])
     path = folder() / f"{name}.yaml"
     try:
-        values = {"blocks": [], "include": [], **yaml.safe_load(path.read_text())}
+        values = {**_OPTIONAL, **yaml.safe_load(path.read_text())}
         return TypeAdapter(Study).validate_python(values)
     except (yaml.YAMLError, TypeError) as error:
         raise ConfigurationError([f"{path.name}: {' '.join(str(error).split())}"]) from None
@@ -56,13 +100,39 @@ def load(name: str) -> Study:
         ) from None
 
 
-def grids(name: str, above: tuple[str, ...] = ()) -> list[list[str]]:
-    """The overrides of every block of a study and of the studies it includes."""
+def members(name: str, above: tuple[str, ...] = ()) -> list[str]:
+    """The study and all that it includes, itself last. Raises ConfigurationError on a circle."""
     if name in above:
         raise ConfigurationError([f"study {name}: includes itself ({' > '.join((*above, name))})"])
-    study = load(name)
-    own = [[f"{key}={_text(value)}" for key, value in block.items()] for block in study.blocks]
-    return own + [grid for inner in study.include for grid in grids(inner, (*above, name))]
+    inner = [member for part in load(name).include for member in members(part, (*above, name))]
+    return list(dict.fromkeys([*inner, name]))
+
+
+def grids(study: Study, overrides: list[str]) -> dict[str, list[list[str]]]:
+    """For every block of a study the sweeps that make its points, each a list of Hydra overrides.
+
+    `overrides` replace what a block says. The first point of a block that varies something is the one
+    that nothing is varied in.
+    """
+    given = dict(override.partition("=")[::2] for override in overrides)
+    found = {}
+    for block, settings in study.blocks.items():
+        vary = settings.get("vary", {})
+        if not isinstance(vary, dict):
+            raise ConfigurationError([f"block {block}: vary takes settings, not {vary}"])
+        base = {key: _text(value) for key, value in settings.items() if key != "vary"} | given
+        changes: list[dict[str, str]] = [{}] if not vary else _one_at_a_time(vary)
+        found[block] = [[f"{k}={v}" for k, v in {**base, **change}.items()] for change in changes]
+    return found
+
+
+def _one_at_a_time(vary: dict[str, Values]) -> list[dict[str, str]]:
+    """Nothing changed, then each setting alone with each of its values."""
+    lists = ((key, value if isinstance(value, list) else [value]) for key, value in vary.items())
+    single = itertools.chain.from_iterable(
+        [{key: _text(value)} for value in values] for key, values in lists
+    )
+    return [{}, *single]
 
 
 def _text(value: Any) -> str:

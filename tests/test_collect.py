@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from sphstudy import collect
+from sphstudy.cells import cells
 from sphstudy.composition import session
 from sphstudy.record import STATUS
 from sphstudy.store import Store
@@ -44,3 +46,28 @@ def test_points_without_a_record_are_missing_not_absent(configs_of, tmp_path):
     assert (dataset["status"] == STATUS.index("missing")).all()
     assert path.is_file()
     np.testing.assert_array_equal(dataset["status"].attrs["flag_values"], np.arange(len(STATUS)))
+
+
+def test_a_sparse_study_is_a_list_of_points(configs_of, tmp_path):
+    base = ["scene=plate", "n=5"]
+    options = ["method.xsph=0.4", "scene.nu=0.2", "scene.columns=spacing", "solve.damping=0.1"]
+    options += ["scene.E=2e6", "scene.H0=0.01", "method.skin=0.2"]
+    configs = configs_of(*base) + [config for o in options for config in configs_of(*base, o)]
+    dataset, path = collect.collect(configs, Store(tmp_path))
+    assert dict(dataset.sizes) == {"point": 8}
+    with xr.open_dataset(path) as stored:
+        assert (
+            stored["scene.columns"].values.tolist() == ["linspace"] * 3 + ["spacing"] + ["linspace"] * 4
+        )
+    found = cells(dataset)
+    assert [cell.flat for cell in found] == [config.flat() for config in configs]
+    assert found[2].place["scene.nu"] == 0.2
+
+
+def test_cells_of_a_grid_are_its_points_only(configs_of, tmp_path):
+    configs = configs_of("scene=plate", "h=1.3", "n=5,7") + configs_of("scene=plate", "h=1.5", "n=5")
+    dataset, _ = collect.collect(configs, Store(tmp_path))
+    assert dict(dataset.sizes) == {"h": 2, "n": 2}
+    assert {cell.label for cell in cells(dataset)} == {"h=1.3 n=5", "h=1.3 n=7", "h=1.5 n=5"}
+    with pytest.raises(ValueError, match="not a combined dataset"):
+        cells(dataset.drop_vars("configuration"))

@@ -3,7 +3,7 @@
 import pytest
 
 from sphstudy import study
-from sphstudy.batch import study_points
+from sphstudy.blocks import StudyPoints, all_points
 from sphstudy.composition import session
 from sphstudy.config import ConfigurationError
 
@@ -16,32 +16,64 @@ def folder(tmp_path, monkeypatch):
 
 def test_shipped_studies_make_the_points_of_the_thesis():
     with session() as hydra:
-        counts = {name: len(study_points(hydra, name, [])[0]) for name in study.names()}
-    assert counts == {"bending": 1, "mode1": 12, "mode2": 12, "plate": 12, "thesis": 37}
+        counts = {name: len(all_points(hydra, name, [])[0]) for name in study.names()}
+    assert counts["mode1"] == counts["mode2"] == 12
+    assert counts["plate"] == 12 + 3  # and three with artificial stress, for figure 4.1
+    assert counts["thesis"] == 12 + 12 + 15 + 1
+    assert all(counts.values())
 
 
 def test_overrides_replace_settings_of_every_block():
     with session() as hydra:
-        points, _ = study_points(hydra, "mode1", ["n=20"])
+        points, _, _ = all_points(hydra, "mode1", ["n=20"])
     assert {p.config.n for p in points} == {20}
     assert len(points) == 4
+
+
+def test_a_block_can_vary_its_settings_one_at_a_time(folder):
+    (folder / "one.yaml").write_text(
+        "title: a\nblocks: {b: {scene: plate, n: 5, vary: {h: [1.3, 1.7], scene.plane: stress}}}\n"
+    )
+    with session() as hydra:
+        points = StudyPoints(hydra, "one", []).blocks["b"]
+    found = [(p.config.h, p.config.scene.plane) for p in points]
+    assert found == [(1.5, "strain"), (1.3, "strain"), (1.7, "strain"), (1.5, "stress")]
+
+
+def test_invalid_cells_are_refused_or_left_out_where_the_study_says_so(folder):
+    text = "title: a\nblocks: {b: {scene: plate, n: [5, 6], h: [0.4, 1.5]}}\n"
+    (folder / "strict.yaml").write_text(text)
+    (folder / "lenient.yaml").write_text(text + "skip_invalid: true\n")
+    with session() as hydra:
+        with pytest.raises(ConfigurationError, match=r"n=6: must be odd"):
+            all_points(hydra, "strict", [])
+        points, _, skipped = all_points(hydra, "lenient", [])
+    assert [(p.config.h, p.config.n) for p in points] == [(1.5, 5)]
+    assert len(skipped) == 4  # two of them for the cell that is wrong in both
+
+
+def test_leaving_out_invalid_cells_does_not_hide_wrong_settings(folder):
+    text = "title: a\nblocks: {b: {scene: plate, n: 5, hh: 1}}\nskip_invalid: true\n"
+    (folder / "wrong.yaml").write_text(text)
+    with session() as hydra, pytest.raises(ConfigurationError, match="no such key"):
+        all_points(hydra, "wrong", [])
 
 
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("title: a\nblocks: [{h: [1.3, {}]}]\n", "blocks"),
+        ("title: a\nblocks: {b: {h: [1.3, {}]}}\n", "blocks"),
         ("title: a\nblock: []\n", "block"),
-        ("blocks: []\n", "title"),
+        ("blocks: {}\n", "title"),
         ("title: [", "expected"),
         ("- 1\n", "bad.yaml"),
         ("title: a\n", "no points"),
         ("title: a\ninclude: [bad]\n", "includes itself"),
         ("title: a\ninclude: [gone]\n", "there is bad"),
-        ("title: a\nblocks: [{scene: foo}]\n", "scene=foo"),
+        ("title: a\nblocks: {b: {scene: foo}}\n", "scene=foo"),
     ],
 )
 def test_wrong_files_are_refused_with_a_reason(folder, text, complaint):
     (folder / "bad.yaml").write_text(text)
     with session() as hydra, pytest.raises(ConfigurationError, match=complaint):
-        study_points(hydra, "bad", [])
+        all_points(hydra, "bad", [])

@@ -1,0 +1,158 @@
+"""Comparison of a study's metrics with accepted intervals: worst first, and a verdict for each."""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import pandas as pd
+import xarray as xr
+
+from sphstudy import reference, study
+from sphstudy.cells import cells
+from sphstudy.results import Results
+
+WITHIN, OUTSIDE, UNSTABLE, MISSING = "within", "outside", "unstable", "missing"
+"""Verdicts. UNSTABLE: the cell sits in an instability and is not judged; MISSING: there is no value."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One metric of one cell against its accepted interval.
+
+    cell: the settings that tell it from the study's other cells. excess: distance of the value from the
+    middle of the interval, in half-widths (more than 1: outside). reason: why the interval is as wide.
+    """
+
+    study: str
+    metric: str
+    cell: str
+    value: float
+    lower: float
+    upper: float
+    units: str
+    verdict: str
+    excess: float
+    reason: str
+
+
+def against_reference(results: Results) -> list[Comparison]:
+    """Every metric of every cell of the stored references of the study and of those it includes.
+
+    Cells of a reference that are not among the results' points are left out, and so are points that the
+    reference lacks. Worst first.
+    """
+    found: list[Comparison] = []
+    for member in study.members(results.name):
+        stored = reference.load(member)
+        if stored is None:
+            continue
+        unstable = study.load(member).unstable
+        rows = results.table[results.table["study"] == member]
+        for cell in cells(stored):
+            row = _matching(rows, cell.flat)
+            if row is None:
+                continue
+            reasons = [u.reason for u in unstable if u.holds(cell.flat)]
+            for metric in reference.metrics(stored):
+                attributes = stored[metric].attrs
+                value = float(row.get(metric, math.nan))
+                lower, upper = (cell.values[f"{metric}_{side}"] for side in ("lower", "upper"))
+                if not math.isnan(lower):
+                    reason = reasons[0] if reasons else stored[f"{metric}_lower"].attrs["reason"]
+                    verdict = UNSTABLE if reasons else _verdict(value, lower, upper, row["status"])
+                    found.append(
+                        _comparison(
+                            member, metric, cell.label, value, lower, upper,
+                            attributes["units"], verdict, reason,
+                        )
+                    )  # fmt: skip
+    return _worst_first(found)
+
+
+def against_thesis(results: Results) -> list[Comparison]:
+    """Metrics against the ranges that the thesis's text and axes give. Worst first."""
+    found: list[Comparison] = []
+    for entry in reference.printed():
+        rows = results.table[(results.table["study"] == entry.study)]
+        for key, value in {"block": entry.block, **entry.where}.items():
+            rows = rows[rows[key].isin(value if isinstance(value, list) else [value])]
+        units = str(results.attributes.get(entry.metric, {}).get("units", "1"))
+        for _, row in rows.iterrows():
+            value = float(row.get(entry.metric, math.nan))
+            verdict = _verdict(value, entry.lower, entry.upper, row["status"])
+            found.append(
+                _comparison(
+                    entry.study, entry.metric, f"h={row['h']:g} n={row['n']}", value,
+                    entry.lower, entry.upper, units, verdict, entry.source,
+                )
+            )  # fmt: skip
+    return _worst_first(found)
+
+
+def between(after: xr.Dataset, before: xr.Dataset, tolerance: float) -> list[Comparison]:
+    """All metrics of two combined datasets, cell by cell; `tolerance` is relative to the value before.
+
+    Where `before` is a stored reference, its own intervals hold. Raises ValueError if either is not a
+    combined dataset.
+    """
+    now = cells(after)
+    found: list[Comparison] = []
+    for cell in cells(before):
+        match = next((c for c in now if _agree(c.flat, cell.flat)), None)
+        if match is None:
+            continue
+        for metric in (m for m in reference.metrics(before) if m in after):
+            old, value = cell.values[metric], match.values[metric]
+            if math.isnan(old) and math.isnan(value):
+                continue
+            lower, upper = old - tolerance * abs(old), old + tolerance * abs(old)
+            reason = f"{tolerance:g} of the value before"
+            if f"{metric}_lower" in before:
+                lower, upper = cell.values[f"{metric}_lower"], cell.values[f"{metric}_upper"]
+                reason = before[f"{metric}_lower"].attrs["reason"]
+            verdict = _verdict(value, lower, upper, match.status)
+            units = before[metric].attrs["units"]
+            found.append(_comparison("", metric, cell.label, value, lower, upper, units, verdict, reason))
+    return _worst_first(found)
+
+
+def _matching(rows: pd.DataFrame, flat: dict[str, Any]) -> pd.Series | None:
+    """The row with this configuration, as far as both know a setting."""
+    for _, row in rows.iterrows():
+        if _agree(row, flat):
+            return row
+    return None
+
+
+def _agree(one: Any, other: dict[str, Any]) -> bool:
+    # Settings that came later are not in an older reference; the version of the numerics is no matter.
+    return all(_same(one[key], value) for key, value in other.items() if key in one)
+
+
+def _same(one: Any, other: Any) -> bool:
+    if isinstance(one, float) and math.isnan(one):
+        return other is None
+    return bool(one == other)
+
+
+def _verdict(value: float, lower: float, upper: float, status: str) -> str:
+    if math.isnan(value):
+        return MISSING if status == "missing" else OUTSIDE
+    return WITHIN if lower <= value <= upper else OUTSIDE
+
+
+def _comparison(
+    member: str, metric: str, cell: str, value: float, lower: float, upper: float,
+    units: str, verdict: str, reason: str,
+) -> Comparison:  # fmt: skip
+    half = 0.5 * (upper - lower)
+    away = abs(value - 0.5 * (upper + lower))
+    excess = away / half if half > 0.0 else (0.0 if away == 0.0 else math.inf)
+    if verdict == OUTSIDE and math.isnan(value):
+        excess = math.inf
+    return Comparison(member, metric, cell, value, lower, upper, units, verdict, excess, reason)
+
+
+def _worst_first(found: list[Comparison]) -> list[Comparison]:
+    ranks = {OUTSIDE: 0, MISSING: 1, WITHIN: 2, UNSTABLE: 3}
+    return sorted(found, key=lambda c: (ranks[c.verdict], -c.excess if c.excess == c.excess else 0.0))

@@ -1,0 +1,117 @@
+"""Stored references: the combined dataset of a study, with an accepted interval for each metric.
+
+They lie in `results/reference`, tracked, one netCDF file a study; `thesis_values.yaml` beside them has
+the ranges that the thesis's text and axes give.
+"""
+
+import math
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+import yaml
+from pydantic import TypeAdapter
+
+from sphstudy import collect, provenance, results, study
+from sphstudy.composition import Session
+from sphstudy.config import ConfigurationError
+from sphstudy.effects import effects
+from sphstudy.parameters import described, number, parameters
+from sphstudy.store import Store, write
+from sphstudy.study import Values
+from sphstudy.tolerance import Tolerance, tolerances
+
+CHOICES = "choices"
+"""The study whose effects say how wide an interval may be."""
+
+
+def folder() -> Path:
+    """The folder of references: inside the package when installed, in `results` in a checkout."""
+    inside = Path(__file__).parent / "reference"
+    return inside if inside.is_dir() else Path(__file__).parent.parent / "results" / "reference"
+
+
+def load(name: str) -> xr.Dataset | None:
+    """The stored reference of a study, None if there is none."""
+    path = folder() / f"{name}.nc"
+    if not path.is_file():
+        return None
+    with xr.open_dataset(path, engine="netcdf4") as dataset:
+        return dataset.load()
+
+
+def metrics(dataset: xr.Dataset) -> list[str]:
+    """Names of the metrics in a combined dataset."""
+    return [str(name) for name, v in dataset.data_vars.items() if v.attrs.get("group") == "metric"]
+
+
+@parameters
+class Printed:
+    """A range that the thesis gives for a metric in certain cells."""
+
+    study: str = described("study that has the metric")
+    block: str = described("block of that study")
+    metric: str = described("the metric")
+    where: dict[str, Values] = described("settings of the cells; a list: any of these")
+    lower: float = number("least value")
+    upper: float = number("largest value")
+    source: str = described("where the thesis says so")
+
+
+@cache
+def printed() -> tuple[Printed, ...]:
+    """The thesis's values."""
+    values = yaml.safe_load((folder() / "thesis_values.yaml").read_text())
+    return tuple(TypeAdapter(list[Printed]).validate_python(values))
+
+
+def make(hydra: Session, name: str, store_folder: str) -> list[Path]:
+    """Writes the references of a study and of those it includes from their stored points.
+
+    Raises ConfigurationError if the sources are not committed, if a point is missing or was computed by
+    sources that were not, or if the effects of the open choices are not there to say how wide intervals
+    may be.
+    """
+    state = provenance.provenance()["git_state"]
+    if len(state) != 40:
+        raise ConfigurationError([f"reference {name}: the sources are {state}: commit them first"])
+    choices = results.load(CHOICES, hydra, [], store_folder)
+    allowed = tolerances(effects(choices))
+    paths = []
+    for member in study.members(name):
+        part = results.load(member, hydra, [], store_folder)
+        own = part.table[part.table["study"] == member]
+        if own.empty:
+            continue
+        complaints = [
+            f"reference {member}: {row['record']} is {row['status']} {row['git_state']}".rstrip()
+            for source in (own, choices.table)
+            for _, row in source.iterrows()
+            if row["status"] not in ("done", "diverged") or len(row["git_state"]) != 40
+        ]
+        if complaints:
+            raise ConfigurationError(complaints)
+        configs = [part.config_at(index) for index in own.drop_duplicates("record").index]
+        dataset, _ = collect.collect(configs, Store(store_folder), member)
+        path = folder() / f"{member}.nc"
+        write(_with_intervals(dataset, allowed), path)
+        paths.append(path)
+    return paths
+
+
+def _with_intervals(dataset: xr.Dataset, allowed: dict[str, Tolerance]) -> xr.Dataset:
+    dataset = dataset.drop_vars([n for n, v in dataset.items() if v.attrs.get("group") == "cost"])
+    for metric in metrics(dataset):
+        variable = dataset[metric]
+        tolerance = allowed.get(metric, Tolerance(math.nan, "not in the choices study: not judged"))
+        for side, sign in (("lower", -1.0), ("upper", 1.0)):
+            attributes: dict[str, Any] = {
+                "units": variable.attrs["units"],
+                "long_name": f"{side} end of the accepted interval of {metric}",
+                "reason": tolerance.reason,
+            }
+            bound = variable.values + sign * np.float64(tolerance.half_width)
+            dataset[f"{metric}_{side}"] = (variable.dims, bound, attributes)
+    return dataset

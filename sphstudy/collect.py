@@ -14,7 +14,7 @@ from sphstudy import identity, provenance, record
 from sphstudy.config import RunConfig
 from sphstudy.record import STATUS
 from sphstudy.runner import measured
-from sphstudy.store import Store, write
+from sphstudy.store import Store, Summary, write
 
 ALWAYS = ("h", "n")
 """Dimensions of every combined dataset, swept or not."""
@@ -54,7 +54,11 @@ def _without_consequences(
 
 
 def hashable(value: Any) -> Any:
-    """The value, or as JSON text what is neither a number nor text."""
+    """The value, or as JSON text what is neither a number nor text; "null" for NaN, which tables have
+    where there is no number.
+    """
+    if isinstance(value, float) and math.isnan(value):
+        return "null"
     return value if isinstance(value, int | float | str) else json.dumps(value)
 
 
@@ -97,31 +101,32 @@ def rows(
     found: list[dict[str, Any]] = []
     attributes: dict[str, dict[str, Any]] = {}
     for config in configs:
-        run = _current(config, store)
+        summary = _current(config, store)
         row: dict[str, Any] = {
-            "status": "missing" if run is None else STATUS[int(run["status"])],
+            "status": "missing" if summary is None else summary.status,
             "record": store.record_path(config).name,
-            "message": "" if run is None else run.attrs["message"],
-            "git_state": "" if run is None else run.attrs["git_state"],
+            "message": "" if summary is None else summary.attributes["message"],
+            "git_state": "" if summary is None else summary.attributes["git_state"],
         }
-        if run is not None:
-            for label, variable in run.data_vars.items():
-                if variable.attrs.get("group") in ("metric", "cost"):
-                    row[str(label)] = float(variable)
-                    attributes[str(label)] = variable.attrs
+        for name, (value, described) in ({} if summary is None else summary.numbers).items():
+            row[name] = value
+            attributes[name] = described
         found.append(row)
     return found, attributes
 
 
-def _current(config: RunConfig, store: Store) -> xr.Dataset | None:
-    """The record of a run with metrics of today's version."""
-    run = store.read(config)
-    if run is None or STATUS[int(run["status"])] != "done":
-        return run
-    if run.attrs["metrics_version"] != identity.metrics_version(config):
-        run = measured(run, config)
-        write(run, store.record_path(config))
-    return run
+def _current(config: RunConfig, store: Store) -> Summary | None:
+    """The summary of a run with metrics of today's version."""
+    summary = store.summary(config)
+    if summary is None or summary.status != "done":
+        return summary
+    if summary.attributes["metrics_version"] != identity.metrics_version(config):
+        run = store.read(config)
+        if run is None:
+            return None
+        write(measured(run, config), store.record_path(config))
+        return store.summary(config)
+    return summary
 
 
 def _grid(

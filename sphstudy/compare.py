@@ -9,6 +9,7 @@ import xarray as xr
 
 from sphstudy import reference, study
 from sphstudy.cells import cells
+from sphstudy.collect import hashable
 from sphstudy.results import Results
 
 WITHIN, OUTSIDE, UNSTABLE, MISSING = "within", "outside", "unstable", "missing"
@@ -38,8 +39,9 @@ class Comparison:
 def against_reference(results: Results) -> list[Comparison]:
     """Every metric of every cell of the stored references of the study and of those it includes.
 
-    Cells of a reference that are not among the results' points are left out, and so are points that the
-    reference lacks. Worst first.
+    A point belongs to the cell with its coordinates, whatever else is set: a default that has changed
+    shows in the values. Cells of a reference that are no points of the results are left out, and so are
+    points that the reference lacks. Worst first.
     """
     found: list[Comparison] = []
     for member in study.members(results.name):
@@ -49,7 +51,7 @@ def against_reference(results: Results) -> list[Comparison]:
         unstable = study.load(member).unstable
         rows = results.table[results.table["study"] == member]
         for cell in cells(stored):
-            row = _matching(rows, cell.flat)
+            row = _matching(rows, cell.place)
             if row is None:
                 continue
             reasons = [u.reason for u in unstable if u.holds(cell.flat)]
@@ -98,7 +100,7 @@ def between(after: xr.Dataset, before: xr.Dataset, tolerance: float) -> list[Com
     now = cells(after)
     found: list[Comparison] = []
     for cell in cells(before):
-        match = next((c for c in now if _agree(c.flat, cell.flat)), None)
+        match = next((c for c in now if _agree(c.flat, cell.place)), None)
         if match is None:
             continue
         for metric in (m for m in reference.metrics(before) if m in after):
@@ -116,23 +118,21 @@ def between(after: xr.Dataset, before: xr.Dataset, tolerance: float) -> list[Com
     return _worst_first(found)
 
 
-def _matching(rows: pd.DataFrame, flat: dict[str, Any]) -> pd.Series | None:
-    """The row with this configuration, as far as both know a setting."""
+def _matching(rows: pd.DataFrame, place: dict[str, Any]) -> pd.Series | None:
+    """The row at these coordinates."""
     for _, row in rows.iterrows():
-        if _agree(row, flat):
+        if _agree(row, place):
             return row
     return None
 
 
-def _agree(one: Any, other: dict[str, Any]) -> bool:
-    # Settings that came later are not in an older reference; the version of the numerics is no matter.
-    return all(_same(one[key], value) for key, value in other.items() if key in one)
-
-
-def _same(one: Any, other: Any) -> bool:
-    if isinstance(one, float) and math.isnan(one):
-        return other is None
-    return bool(one == other)
+def _agree(settings: Any, place: dict[str, Any]) -> bool:
+    # Coordinates that are a mixture of numbers and words are all written as words.
+    return all(
+        settings[key] == value or str(hashable(settings[key])) == str(value)
+        for key, value in place.items()
+        if key in settings
+    )
 
 
 def _verdict(value: float, lower: float, upper: float, status: str) -> str:

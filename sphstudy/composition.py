@@ -4,6 +4,7 @@ import difflib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from hydra import initialize_config_dir
@@ -43,6 +44,8 @@ class Session:
         self._loader = GlobalHydra.instance().config_loader()
         self._parser = OverridesParser.create(config_loader=self._loader)
         self._composed: dict[tuple[str, ...], dict[str, Any]] = {}
+        # Hydra looks through its folders every time it is asked.
+        self._options = cache(self._loader.get_group_options)
 
     def points(
         self, arguments: list[str], sweep: bool, skipped: list[str] | None = None
@@ -117,7 +120,7 @@ class Session:
             yield f"{line}: interpolations are not taken from the command line"
         elif key.startswith("hydra"):
             yield f"{line}: of Hydra's own keys, hydra/launcher and hydra.launcher.* can be set"
-        elif "." not in key and (options := self._loader.get_group_options(key)):
+        elif "." not in key and (options := self._options(key)):
             many = override.is_sweep_override()
             for value in override.sweep_iterator() if many else [override.value()]:
                 if value not in options:
@@ -129,7 +132,7 @@ class Session:
         Configuration groups are composed once per choice; single values are set on a copy.
         """
         parsed = self._parser.parse_overrides(overrides)
-        groups = [o for o in parsed if self._loader.get_group_options(o.key_or_group)]
+        groups = [o for o in parsed if self._options(o.key_or_group)]
         chosen = tuple(str(o.input_line) for o in groups)
         if chosen not in self._composed:
             config = self._loader.load_configuration("config", list(chosen), RunMode.RUN)

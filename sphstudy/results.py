@@ -8,7 +8,7 @@ import pandas as pd
 import xarray as xr
 
 from sphstudy import collect, study
-from sphstudy.blocks import StudyPoints
+from sphstudy.blocks import StudyPoints, all_points
 from sphstudy.composition import Session
 from sphstudy.config import RunConfig
 from sphstudy.store import Store
@@ -115,11 +115,27 @@ def load(name: str, hydra: Session, overrides: list[str], folder: str | None = N
     Metrics of another version are measured again from stored fields. Raises ConfigurationError if there
     is no such study.
     """
+    where = folder or all_points(hydra, name, overrides)[1]
+
+    @cache
+    def loaded(inner: str, changed: tuple[str, ...]) -> Results:
+        # Whatever asks for another study shares what has been read.
+        return _load(inner, hydra, list(changed), where, lambda n, o: loaded(n, tuple(o)))
+
+    return loaded(name, tuple(overrides))
+
+
+def _load(
+    name: str,
+    hydra: Session,
+    overrides: list[str],
+    folder: str,
+    other: Callable[[str, list[str]], Results],
+) -> Results:
     configs: list[RunConfig] = []
     places: list[dict[str, str]] = []
     for member in study.members(name):
         part = StudyPoints(hydra, member, overrides)
-        folder = folder or part.folder
         for block, points in part.blocks.items():
             base = points[0].config.flat() if points else {}
             one_at_a_time = "vary" in study.load(member).blocks[block]
@@ -127,21 +143,18 @@ def load(name: str, hydra: Session, overrides: list[str], folder: str | None = N
                 varied = _difference(base, point.config.flat()) if one_at_a_time else ""
                 configs.append(point.config)
                 places.append({"study": member, "block": block, "varied": varied})
-    store = Store(folder or "results")
+    store = Store(folder)
     rows, attributes = collect.rows(configs, store)
     table = pd.DataFrame([{**p, **c.flat(), **r} for p, c, r in zip(places, configs, rows, strict=True)])
-
-    def record(row: int) -> xr.Dataset | None:
-        return store.read(configs[row])
-
-    @cache
-    def another(inner: str, changed: tuple[str, ...]) -> Results:
-        return load(inner, hydra, list(changed), folder)
-
-    def other(inner: str, changed: list[str]) -> Results:
-        return another(inner, tuple(changed))
-
-    return Results(name, study.load(name), table, attributes, record, other, configs.__getitem__)
+    return Results(
+        name,
+        study.load(name),
+        table,
+        attributes,
+        lambda row: store.read(configs[row]),
+        other,
+        configs.__getitem__,
+    )
 
 
 def _difference(base: dict[str, Any], flat: dict[str, Any]) -> str:

@@ -7,7 +7,11 @@ from scipy.interpolate import make_interp_spline
 from sphstudy.exact import beam
 from sphstudy.exact.elasticity2d import bent_plate
 from sphstudy.metrics.metric import Metric, snapshot
+from sphstudy.metrics.roughness import deviation
 from sphstudy.sph.material import Material
+
+WALL, END = 0.15, 0.9
+"""Figures 4.7a and 4.7b show boundary effects for x0 < WALL and x0 > END, in lengths of the plate."""
 
 
 def column_angle(x: np.ndarray, y: np.ndarray) -> float:
@@ -17,6 +21,29 @@ def column_angle(x: np.ndarray, y: np.ndarray) -> float:
     gives the same angle modulo π and with the other sign.
     """
     return float(-np.arctan(np.polyfit(y, x, 1)[0]))
+
+
+def boundary_roughness(x0: np.ndarray, error: np.ndarray, length: float) -> dict[str, Metric]:
+    """Largest jag of the centreline near the wall, near the end, and between the two.
+
+    x0, error [M] (m): particles of the centreline in order and what u_y has beyond a smooth curve. A
+    jag is the error's deviation from the mean of its two neighbours: of second order in the spacing on
+    a smooth curve, however wrong, and as large as the error where that goes up and down from particle
+    to particle. A part without particles is left out.
+    """
+    jag, at = np.abs(deviation(error[None])[0]), x0[1:-1] / length
+    parts = (
+        ("wall", "near the wall", at < WALL),
+        ("middle", "in the middle of the span", (at >= WALL) & (at <= END)),
+        ("end", "near the end", at > END),
+    )
+    return {
+        f"centreline_roughness_{part}": Metric(
+            float(jag[there].max()), "m", f"largest jag of the centreline {where}"
+        )
+        for part, where, there in parts
+        if there.any()
+    }
 
 
 def measure(run: xr.Dataset, config) -> dict[str, Metric]:
@@ -65,4 +92,5 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
         "bending_energy_2d_uncertainty": Metric(
             plate.strain_energy.error, "J m-1", "error estimate of the 2-D energy"
         ),
+        **boundary_roughness(x0, error, scene.L),
     }

@@ -9,12 +9,14 @@ from sphstudy.sph.constraints import Constraints
 
 __all__ = ["HEADLINE", "METRICS", "Parameters", "build", "check", "particles"]
 
-METRICS = ("bending", "equilibrium", "balance")
+METRICS = ("bending", "roughness", "regularity", "equilibrium", "balance")
 HEADLINE = (
     "end_angle",
     "end_angle_error",
     "centreline_error_max",
     "centreline_error_rms",
+    "centreline_roughness_end",
+    "spacing_spread_bottom",
     "equilibrium_ratio",
     "smallest_spacing",
 )

@@ -15,7 +15,7 @@ from sphstudy.scenes.problem import Body, Problem, Stage, lattice
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
 
-METRICS = ("fracture", "norms", "equilibrium", "balance")
+METRICS = ("fracture", "norms", "symmetry", "equilibrium", "balance")
 HEADLINE = (
     "G1_error",
     "G2_error",
@@ -24,6 +24,7 @@ HEADLINE = (
     "K_II_error",
     "u_x_rms",
     "u_y_rms",
+    "stress_yy_parity_defect_ahead",
     "equilibrium_ratio",
 )
 

@@ -11,7 +11,7 @@ from sphstudy.scenes.problem import Body, Problem, Stage, lattice
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
 
-METRICS = ("oscillation", "balance")
+METRICS = ("oscillation", "roughness", "regularity", "balance")
 HEADLINE = (
     "frequency_error",
     "frequency_error_2d",
@@ -19,6 +19,7 @@ HEADLINE = (
     "amplitude_frequency_product",
     "decay_rate",
     "fit_residual",
+    "stress_roughness_bottom",
 )
 
 

@@ -20,7 +20,8 @@ def test_the_wheel_runs_elsewhere(tmp_path):
     script = (
         f"import sys; sys.path.insert(0, {str(site)!r}); import sphstudy; print(sphstudy.__file__);"
         "from sphstudy.__main__ import main;"
-        "sys.exit(main(['scene=plate', 'n=5', 'scene.periods=0.1']) or main(['list']))"
+        "sys.exit(main(['scene=plate', 'n=5', 'scene.periods=0.1']) or main(['list'])"
+        " or main(['compare', 'plate', 'printed']) or main(['report', 'plate']))"
     )
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
@@ -30,4 +31,6 @@ def test_the_wheel_runs_elsewhere(tmp_path):
     assert result.returncode == 0, result.stderr
     assert result.stdout.startswith(str(site))
     assert "thesis" in result.stdout
+    assert "axis of figure 4.2a" in result.stdout
+    assert (elsewhere / "results" / "reports" / "plate" / "index.html").is_file()
     assert len(list((elsewhere / "results" / "runs").glob("*.nc"))) == 1

@@ -1,0 +1,89 @@
+"""Shared parts of figures: what particles look like, and the scene that a schematic figure shows."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.lines import Line2D
+from numpy.typing import ArrayLike
+
+from sphstudy.config import RunConfig, scene_module
+from sphstudy.results import Missing, Results
+from sphstudy.scenes.problem import Problem
+
+TEXT_WIDTH = 6.7
+"""Width (inch) of a figure as wide as a text column of 17 cm."""
+
+# Shapes differ as well as colours, so that nothing is lost in black and white.
+MARKS: dict[str, dict[str, Any]] = {
+    "free": {"marker": "o", "markerfacecolor": "white", "markeredgecolor": "0.5"},
+    "fixed": {"marker": "s", "color": "C6"},
+    "prescribed": {"marker": "^", "color": "C1"},
+    "tracked": {"marker": "*", "color": "C0"},
+    "marked": {"marker": "o", "color": "C0"},
+    "observer": {"marker": "o", "color": "C0", "markersize": 8},
+    "neighbour": {"marker": "s", "color": "C2"},
+    "hidden": {"marker": "*", "color": "C6", "markersize": 9},
+    "reference": {"marker": "o", "color": "0.75", "markersize": 3},
+}
+"""How particles of a kind are drawn. observer: particle i; neighbour: one that it interacts with; hidden:
+one behind a crack; reference: one in the background."""
+
+
+def particles(
+    axes: Axes, x: ArrayLike, y: ArrayLike, kind: str, label: str = "", **line_options: Any
+) -> Line2D:
+    """Marks particles at x, y [M] in the way of their kind (key of MARKS, and label if none is given)."""
+    options = {"linestyle": "none", "label": label or kind, **MARKS[kind], **line_options}
+    return axes.plot(x, y, **options)[0]
+
+
+def footprints(
+    axes: Axes,
+    x: ArrayLike,
+    y: ArrayLike,
+    spacing_x: float,
+    spacing_y: float,
+    values: ArrayLike | None = None,
+    **collection_options: Any,
+) -> PolyCollection:
+    """Draws each particle at (x, y) [N] as the rectangle Δx by Δy (m) that it stands for.
+
+    `values` [N] colours them, by `cmap`, `norm` or `clim` among the options, which go to PolyCollection
+    ("facecolor" for one colour). NaN leaves a rectangle out. Zooms to what is drawn; a later call widens.
+    """
+    corners = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]) * (spacing_x, spacing_y)
+    centres = np.column_stack((np.ravel(x), np.ravel(y)))
+    # Edges in the colour of the fill close the hairlines between rectangles that do not quite meet.
+    options: dict[str, Any] = {"linewidth": 0.2, "edgecolor": "face", "rasterized": True}
+    collection = PolyCollection(list(centres[:, None, :] + corners), **(options | collection_options))
+    if values is not None:
+        collection.set_array(np.ravel(values))
+    axes.add_collection(collection, autolim=True)
+    axes.autoscale_view()
+    return collection
+
+
+def geometry(axes: Axes) -> None:
+    """Makes axes those of a drawing of the body: equal scales, no grid, coordinates in metres."""
+    axes.set_aspect("equal")
+    axes.grid(False)
+    axes.set_xlabel("x (m)")
+    axes.set_ylabel("y (m)")
+
+
+def first_configuration(results: Results, scene: str) -> RunConfig:
+    """Configuration of the first point of the grid of this scene. Raises Missing if there is none."""
+    rows = results.select({"scene": scene}, "grid")
+    if rows.empty:
+        raise Missing(f"{results.name}: no point of scene {scene} in block grid")
+    settings = {"scene": scene, "h": rows["h"].iloc[0], "n": rows["n"].iloc[0]}
+    return results.config(settings, "grid")
+
+
+def built(config: RunConfig, n: int | None = None) -> Problem:
+    """The scene of a configuration, with resolution n instead of its own where it is given."""
+    config = config if n is None else replace(config, n=n)
+    return scene_module(config.scene.kind).build(config)

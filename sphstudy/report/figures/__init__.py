@@ -1,0 +1,1 @@
+"""The figures, by subject: each a function from results to a matplotlib figure."""

@@ -1,0 +1,153 @@
+"""What the report says of each study on its page: figures, tables, points that are not done, origins."""
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+
+from sphstudy import study
+from sphstudy.effects import effects
+from sphstudy.record import STATUS
+from sphstudy.report import render, tables, text
+from sphstudy.report.render import Drawing
+from sphstudy.report.tables import Group, Setting, Table
+from sphstudy.results import Results
+
+
+@dataclass(frozen=True)
+class GroupTables:
+    """Everything in tables about the points of one scene in one block."""
+
+    title: str
+    summary: str
+    points: Table
+    effects: Table | None
+    cost: Table | None
+    settings: list[Setting]
+
+
+@dataclass(frozen=True)
+class NotDone:
+    """A point without a result, and why."""
+
+    label: str
+    status: str
+    message: str
+
+
+@dataclass(frozen=True)
+class Section:
+    """A study on the page. stored: whether any of its own points is, or there are none."""
+
+    name: str
+    title: str
+    summary: str
+    stored: bool
+    drawings: list[Drawing]
+    groups: list[GroupTables]
+    not_done: list[NotDone]
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where some of the records come from. dirty: computed from sources with uncommitted changes."""
+
+    records: int
+    first: str
+    last: str
+    commit: str
+    dirty: bool
+    version: str
+    libraries: str
+    processor: str
+
+
+def studies(results: Results) -> list[Results]:
+    """The study, those that it includes and those shown with it, in the order of the page."""
+    names = [results.name, *study.members(results.name), *results.definition.shows]
+    return [results.other(name) for name in dict.fromkeys(names)]
+
+
+def section(results: Results, folder: Path) -> Section:
+    """Draws the study's figures below the folder and makes its tables."""
+    rows = results.table[results.table["study"] == results.name]
+    stored = bool((rows["status"] != "missing").any()) if len(rows) else True
+    definition = results.definition
+    return Section(
+        name=results.name,
+        title=definition.title,
+        summary=summary(rows),
+        stored=stored,
+        drawings=render.draw_all(results, folder) if stored else [],
+        groups=[_tables(group) for group in tables.groups(results, rows)] if stored else [],
+        not_done=[_not_done(row) for _, row in rows[rows["status"] != "done"].iterrows()],
+    )
+
+
+def _tables(group: Group) -> GroupTables:
+    several = group.results.table.groupby("block")["scene"].nunique()[group.block] > 1
+    found = [effect for effect in effects(group.results) if effect.block == group.block]
+    return GroupTables(
+        title=f"{group.block}, scene {group.scene}" if several else group.block,
+        summary=_cost_summary(group.rows),
+        points=tables.points(group),
+        effects=tables.effects(group, found) if found else None,
+        cost=tables.cost(group),
+        settings=tables.common_settings(group),
+    )
+
+
+def _not_done(row: pd.Series) -> NotDone:
+    varied = f", {row['varied']}" if row["varied"] else ""
+    label = f"{row['block']}: {row['scene']} h={row['h']:g} n={row['n']}{varied}"
+    return NotDone(label, row["status"], row["message"])
+
+
+def summary(rows: pd.DataFrame) -> str:
+    """How many points there are, by outcome, and the CPU time that they took; each record once."""
+    rows = rows.drop_duplicates("record")
+    if rows.empty:
+        return ""
+    counts = Counter(rows["status"])
+    outcomes = ", ".join(
+        f"{counts[status]} {status}" for status in (*STATUS[1:], STATUS[0]) if counts[status]
+    )
+    seconds = text.duration(rows["cpu_seconds"].sum()) if "cpu_seconds" in rows else "0 s"
+    return f"{text.counted(len(rows), 'point')}: {outcomes}; {seconds} of CPU time in all"
+
+
+def _cost_summary(rows: pd.DataFrame) -> str:
+    if "cpu_seconds" not in rows or (seconds := rows["cpu_seconds"].dropna()).empty:
+        return "No point has been computed yet"
+    least, most, total = (text.duration(s) for s in (seconds.min(), seconds.max(), seconds.sum()))
+    if len(seconds) == 1:
+        return f"1 point computed, {total} of CPU time"
+    points = text.counted(len(seconds), "point")
+    return f"{points} computed, {least} to {most} of CPU time each, {total} in all"
+
+
+def origins(found: Iterable[Results]) -> list[Origin]:
+    """Where the records that are done come from, as these say themselves."""
+    records = {}
+    for results in found:
+        for name in results.table.loc[results.table["status"] == "done", "record"]:
+            if name not in records:
+                records[name] = results.record({"record": name}).attrs
+    dates: dict[tuple[str, ...], list[str]] = {}
+    for attributes in records.values():
+        source = (
+            attributes["git_state"],
+            attributes["sphstudy_version"],
+            f"Python {attributes['python_version']}, {attributes['library_versions']}",
+            attributes["processor"],
+        )
+        dates.setdefault(source, []).append(attributes["date_created"])
+    return [_origin(source, sorted(begun)) for source, begun in dates.items()]
+
+
+def _origin(source: tuple[str, ...], begun: list[str]) -> Origin:
+    state, *rest = source
+    commit = state.removesuffix(" (dirty)")
+    return Origin(len(begun), begun[0], begun[-1], commit, commit != state, *rest)

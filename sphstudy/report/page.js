@@ -23,7 +23,7 @@ function sort(body, column, direction) {
   const compare = (a, b) => {
     // Rows without a value come last in either direction.
     if (Number.isNaN(a) || Number.isNaN(b)) return Number.isNaN(a) - Number.isNaN(b);
-    if (typeof a === "number" && typeof b === "number") return (a - b);
+    if (typeof a === "number" && typeof b === "number") return direction * (a - b);
     return direction * String(a).localeCompare(String(b), "en", { numeric: true });
   };
   body.append(...[...body.rows].sort((a, b) => compare(key(a), key(b))));

@@ -51,7 +51,7 @@ def bending(below=4.0, above=1.5, unloaded=1.0, stray=0.5):
     """Spread over its value at 11 s, 1 %; `stray`: below over above where W'' > 0."""
     rows = []
     for kernel in ("cubic", "wendland"):
-        for h in (1.3, 1.5, 1.7):
+        for h in (1.3, 1.7):
             down, up = below, above
             if curvature_at_neighbour(h, kernel) > 0.0:
                 down = above * stray

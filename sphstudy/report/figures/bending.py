@@ -116,12 +116,15 @@ def _positions(run: xr.Dataset, state: xr.Dataset) -> Figure:
     drawing = Figure(figsize=(5.6, 3.1), layout="constrained")
     whole, wall = drawing.subplots(2, 1, height_ratios=(1.0, 2.4))
     # At the scale of the whole, gaps between the particles would beat with the pixels.
-    footprints(whole, x, y, *size, facecolor="C0")
+    footprints(whole, x, y, *size, facecolor="C0", linewidth=0.8)
     footprints(wall, x, y, *(0.5 * size), facecolor="C0", linewidth=0.0)
     near = x < _NEAR * config.scene.L
-    for axes, chosen, end in ((whole, x < np.inf, x.max()), (wall, near, _NEAR * config.scene.L)):
+    for axes, chosen, end in (
+        (whole, x < np.inf, x.max() + size[0]),
+        (wall, near, _NEAR * config.scene.L),
+    ):
         low, high = y[chosen].min(), y[chosen].max()
-        axes.set(xlim=(x.min() - size[0], end + size[0]), ylim=(low - size[1], high + size[1]))
+        axes.set(xlim=(x.min() - size[0], end), ylim=(low - size[1], high + size[1]))
         axes.set(ylabel="$y$ (m)", aspect="equal")
         axes.grid(False)
     wall.set_xlabel("$x$ (m)")

@@ -17,9 +17,9 @@ from sphstudy.results import Missing, Results
 _CAPTION = (
     "each mark is the change of a metric (title, with its value in the base) when one setting is "
     "varied and all else kept; triangles point up where it grows and down where it falls, on a "
-    "logarithmic axis; the numbers beside them carry the sign; a 0 is no change to the last bit. Grey: "
-    "the effect of the control, method.skin, which changes only the order in which numbers are added; "
-    "what lies in the grey is rounding."
+    "logarithmic axis; the numbers beside them carry the sign; what has a number only is too "
+    "small for the axis, a 0 no change to the last bit. Grey: the effect of the control, method.skin, "
+    "which changes only the order in which numbers are added; what lies in the grey is rounding."
 )
 
 _POINTS = "percentage points"
@@ -47,6 +47,12 @@ _METRICS = {
     },
 }
 """Block, metric: what it is called, its unit, the unit of its changes, and the factor to that unit."""
+
+_SMALLEST = 1e-5
+"""Smallest change on an axis, over the largest: less is rounding, not worth the decades it would take."""
+
+_WITHOUT = {"done": "undefined"}
+"""What is said of a point that has not got the metric, where that is not its status."""
 
 _UP, _DOWN, _CONTROL = ("^", "#D55E00"), ("v", "#0072B2"), ("o", "0.4")
 
@@ -87,7 +93,7 @@ def _chart(results: Results, block: str) -> Figure:
         changes = {e.varied: factor * e.change for e in found if e.metric == metric}
         base = [factor * e.base for e in found if e.metric == metric]
         _panel(axes, rows, changes)
-        axes.set_title(f"{title}\nbase: {_signed(base[0], '.3g')} {unit}" if base else title)
+        axes.set_title(f"{title}\nbase: {_minus(f'{base[0]:.3g}')} {unit}" if base else title)
         axes.set_xlabel(f"|change|\n({change_unit})")
     panels[0].set_yticks(np.arange(len(rows)), [_label(varied) for varied in rows["varied"]])
     panels[0].set_ylim(len(rows) - 0.5, -0.5)
@@ -100,22 +106,25 @@ def _chart(results: Results, block: str) -> Figure:
 
 
 def _panel(axes: Axes, rows: pd.DataFrame, changes: dict[str, float]) -> None:
-    """Changes by setting; a setting without one shows the status of its point, one of zero a 0."""
-    sizes = [abs(change) for change in changes.values() if change != 0.0]
-    low, high = (min(sizes), max(sizes)) if sizes else (1.0, 1.0)
+    """Changes by setting; a setting without one shows the status of its point.
+
+    A change that is zero, or too small for the axis, is only told as a number at its edge.
+    """
+    high = max((abs(change) for change in changes.values()), default=0.0) or 1.0
+    sizes = [abs(change) for change in changes.values() if abs(change) >= _SMALLEST * high]
+    # A mark on the edge would be cut in half.
+    left = 10.0 ** float(np.floor(np.log10(0.6 * min(sizes, default=high))))
+    right = 10.0 ** float(np.ceil(np.log10(high)))
     axes.set_xscale("log")
     # Room on the right for the number beside the largest change.
-    left, right = (
-        10.0 ** float(step(np.log10(size))) for step, size in ((np.floor, low), (np.ceil, high))
-    )
     axes.set_xlim(left, right * max((right / left) ** 0.5, 10.0))
     axes.xaxis.set_minor_formatter(NullFormatter())
     place: dict[str, Any] = {"textcoords": "offset points", "va": "center", "fontsize": 8}
     for line, (varied, status) in enumerate(zip(rows["varied"], rows["status"], strict=True)):
         change = changes.get(varied)
-        if change is None or change == 0.0:
-            text = "0" if change == 0.0 else (status if status != "done" else "undefined")
+        if change is None or abs(change) < left:
             edge = axes.get_yaxis_transform()
+            text = _number(change) if change is not None else _WITHOUT.get(status, status)
             axes.annotate(text, (0.0, line), (5, 0), xycoords=edge, color="0.4", **place)
             continue
         control = varied.startswith(CONTROL)
@@ -123,7 +132,7 @@ def _panel(axes: Axes, rows: pd.DataFrame, changes: dict[str, float]) -> None:
         if control:
             axes.axvspan(left, abs(change), color="0.9", zorder=0)
         axes.plot(abs(change), line, marker, color=colour)
-        axes.annotate(_signed(change, "+.2g"), (abs(change), line), (6, 0), **place)
+        axes.annotate(_number(change), (abs(change), line), (6, 0), **place)
 
 
 def _label(varied: str) -> str:
@@ -132,8 +141,12 @@ def _label(varied: str) -> str:
     return ", ".join(f"{key.rpartition('.')[2]} = {_short(value)}" for key, _, value in parts)
 
 
-def _signed(value: float, form: str) -> str:
-    return f"{value:{form}}".replace("-", "\N{MINUS SIGN}")
+def _number(change: float) -> str:
+    return _minus(f"{change:+.2g}") if change else "0"
+
+
+def _minus(number: str) -> str:
+    return number.replace("-", "\N{MINUS SIGN}")
 
 
 def _short(value: str) -> str:

@@ -19,6 +19,12 @@ from sphstudy.store import Store, Summary, write
 ALWAYS = ("h", "n")
 """Dimensions of every combined dataset, swept or not."""
 
+ORIGIN = (
+    "message", "git_state", "date_created", "sphstudy_version", "python_version", "library_versions",
+    "processor",
+)  # fmt: skip
+"""Global attributes of a record that tables carry too."""
+
 SPARSEST = 8
 """A dataset over what was swept has at most so many cells a point."""
 
@@ -72,7 +78,7 @@ def collect(configs: list[RunConfig], store: Store, name: str | None = None) -> 
     """
     swept = dimensions(configs)
     found, attributes = rows(configs, store)
-    table = pd.DataFrame(found).drop(columns="git_state")
+    table = pd.DataFrame(found).drop(columns=[key for key in ORIGIN if key != "message"])
     table["configuration"] = [json.dumps(config.as_dict(), sort_keys=True) for config in configs]
     flat = [config.flat() for config in configs]
     places = pd.DataFrame([{key: hashable(point.get(key)) for key in swept} for point in flat])
@@ -94,7 +100,7 @@ def collect(configs: list[RunConfig], store: Store, name: str | None = None) -> 
 def rows(
     configs: list[RunConfig], store: Store
 ) -> tuple[list[dict[str, Any]], dict[str, dict[str, Any]]]:
-    """For each configuration its status (a code), record, message, git state, metrics and cost.
+    """For each configuration its status, record, origin (ORIGIN), metrics and cost.
 
     Beside them, units and meaning of each metric and cost. Metrics of another version are measured again.
     """
@@ -105,8 +111,7 @@ def rows(
         row: dict[str, Any] = {
             "status": "missing" if summary is None else summary.status,
             "record": store.record_path(config).name,
-            "message": "" if summary is None else summary.attributes["message"],
-            "git_state": "" if summary is None else summary.attributes["git_state"],
+            **{key: "" if summary is None else summary.attributes[key] for key in ORIGIN},
         }
         for name, (value, described) in ({} if summary is None else summary.numbers).items():
             row[name] = value

@@ -1,7 +1,7 @@
 """What the store holds of a study: a table of all points and their records. Reads, never runs."""
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 import pandas as pd
@@ -23,10 +23,11 @@ class Results:
     """The stored points of a study.
 
     table: a row for each point of each block, in order. Its columns: `study`, the member that the point
-    belongs to (the study itself or one that it includes); `block`; `varied` ("key=value" in a
-    block that varies settings one at a time, else ""); every setting of the flat configuration ("h", "n",
-    "scene", "scene.E", ...); `status`, `message`, `record` (file name), `git_state`; and every metric and
-    cost (NaN where there is none). attributes: units and long_name of each metric and cost.
+    belongs to (the study itself or one that it includes); `block`; `varied` ("key=value" in a block
+    that varies settings one at a time, else ""); every setting of the flat configuration ("h", "n",
+    "scene", "scene.E", ...); `status`, `record` (file name) and where it comes from (collect.ORIGIN:
+    `message`, `git_state`, ...); and every metric and cost (NaN where there is none). attributes: units
+    and long_name of each metric and cost.
     """
 
     def __init__(
@@ -116,11 +117,16 @@ def load(name: str, hydra: Session, overrides: list[str], folder: str | None = N
     is no such study.
     """
     where = folder or all_points(hydra, name, overrides)[1]
+    members = study.members(name)
 
+    # Whatever asks for another study shares what has been read.
     @cache
     def loaded(inner: str, changed: tuple[str, ...]) -> Results:
-        # Whatever asks for another study shares what has been read.
-        return _load(inner, hydra, list(changed), where, lambda n, o: loaded(n, tuple(o)))
+        return _load(inner, hydra, list(changed), where, other)
+
+    def other(inner: str, changed: list[str]) -> Results:
+        # What the whole study was asked for holds for its parts.
+        return loaded(inner, (*(overrides if inner in members else ()), *changed))
 
     return loaded(name, tuple(overrides))
 
@@ -146,15 +152,9 @@ def _load(
     store = Store(folder)
     rows, attributes = collect.rows(configs, store)
     table = pd.DataFrame([{**p, **c.flat(), **r} for p, c, r in zip(places, configs, rows, strict=True)])
-    return Results(
-        name,
-        study.load(name),
-        table,
-        attributes,
-        lambda row: store.read(configs[row]),
-        other,
-        configs.__getitem__,
-    )
+    # One record serves several figures in a row.
+    record = lru_cache(maxsize=8)(lambda row: store.read(configs[row]))
+    return Results(name, study.load(name), table, attributes, record, other, configs.__getitem__)
 
 
 def _difference(base: dict[str, Any], flat: dict[str, Any]) -> str:

@@ -34,14 +34,15 @@ def review(hydra: Session, name: str, overrides: list[str], folder: str) -> int:
 
     Returns 1 if a metric lies outside its accepted interval, else 0.
     """
-    from sphstudy.report import page
+    # Drawing takes a second to load, which no other command should wait for.
+    from sphstudy.report.page import write as write_page
 
     found = load(name, hydra, overrides, folder)
     for claim, finding in checked(found):
         print(f"claim {claim.id}: {finding.verdict}: {finding.numbers}")
     status = _print_reference(found, SHOWN)
     began = time.perf_counter()
-    path = page.write(found, Path(folder) / "reports" / report_name(name, overrides))
+    path = write_page(found, Path(folder) / "reports" / report_name(name, overrides))
     print(f"report: {path} ({time.perf_counter() - began:.0f} s)")
     return status
 

@@ -37,11 +37,14 @@ class Claim:
     rule: Callable[[Results], Finding]
 
     def check(self, results: Results) -> Finding:
-        """The finding; UNKNOWN, and what is missing, if the store lacks what the rule needs."""
+        """The finding; UNKNOWN, and why, if the store lacks what the rule needs or the rule fails."""
         try:
             return self.rule(results)
         except Missing as missing:
             return Finding(UNKNOWN, str(missing))
+        except Exception as error:
+            # One rule that fails must not cost the report of a night's runs.
+            return Finding(UNKNOWN, f"the rule failed: {type(error).__name__}: {error}")
 
 
 def claim(

@@ -129,21 +129,14 @@ def _cost_summary(rows: pd.DataFrame) -> str:
 
 
 def origins(found: Iterable[Results]) -> list[Origin]:
-    """Where the records that are done come from, as these say themselves."""
-    records = {}
-    for results in found:
-        for name in results.table.loc[results.table["status"] == "done", "record"]:
-            if name not in records:
-                records[name] = results.record({"record": name}).attrs
+    """Where the records come from, as these say themselves."""
+    tables = [results.table[results.table["status"] != "missing"] for results in found]
+    records = pd.concat(tables).drop_duplicates("record")
     dates: dict[tuple[str, ...], list[str]] = {}
-    for attributes in records.values():
-        source = (
-            attributes["git_state"],
-            attributes["sphstudy_version"],
-            f"Python {attributes['python_version']}, {attributes['library_versions']}",
-            attributes["processor"],
-        )
-        dates.setdefault(source, []).append(attributes["date_created"])
+    for _, record in records.iterrows():
+        libraries = f"Python {record['python_version']}, {record['library_versions']}"
+        source = (record["git_state"], record["sphstudy_version"], libraries, record["processor"])
+        dates.setdefault(source, []).append(record["date_created"])
     return [_origin(source, sorted(begun)) for source, begun in dates.items()]
 
 

@@ -142,7 +142,7 @@ def effects(group: Group, found: list[Effect]) -> Table:
     rows = [first]
     controls = {effect.varied for effect in found if effect.is_control}
     for varied in dict.fromkeys(effect.varied for effect in found):
-        row = [Cell(f"{varied} (control: rounding only)" if varied in controls else varied)]
+        row = [Cell(f"{varied} (control)" if varied in controls else varied)]
         for name in metrics:
             change = changes.get((varied, name), float("nan"))
             row.append(Cell(text.metric(name, change, group.units(name), sign=True), change))

@@ -43,10 +43,10 @@ def is_share(name: str, units: str) -> bool:
 
 
 def metric(name: str, value: float, units: str, sign: bool = False) -> str:
-    """The value of a metric, in % if it is a relative error; `sign`: a plus if it is positive."""
+    """The value of a metric, in % if it is a relative error; `sign`: it is a change, with its sign."""
     if is_share(name, units):
         return number(100.0 * value, 3, sign)
-    return number(value, 4, sign)
+    return number(value, 3 if sign else 4, sign)
 
 
 def unit(name: str, units: str) -> str:

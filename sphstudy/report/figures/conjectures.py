@@ -166,6 +166,7 @@ def _name_places(axes: Axes, places: list[tuple[str, float]]) -> None:
     """Names the places along the axis: h, and below the middle of each kernel's places its name."""
     names = [kernel for kernel, _ in places]
     middles = {name: names.index(name) + 0.5 * (names.count(name) - 1) for name in names}
+    axes.set_xlim(-0.5, len(places) - 0.5)
     axes.set_xticks(range(len(places)), [f"{h:g}" for _, h in places])
     axes.set_xticks(list(middles.values()), list(middles), minor=True)
     axes.tick_params("x", which="minor", length=0, pad=17)

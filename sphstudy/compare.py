@@ -56,18 +56,18 @@ def against_reference(results: Results) -> list[Comparison]:
                 continue
             reasons = [u.reason for u in unstable if u.holds(cell.flat)]
             for metric in reference.metrics(stored):
-                attributes = stored[metric].attrs
+                tolerance = reference.tolerance(stored, metric)
+                if tolerance is None or math.isnan(middle := cell.values[metric]):
+                    continue
                 value = float(row.get(metric, math.nan))
-                lower, upper = (cell.values[f"{metric}_{side}"] for side in ("lower", "upper"))
-                if not math.isnan(lower):
-                    reason = reasons[0] if reasons else stored[f"{metric}_lower"].attrs["reason"]
-                    verdict = UNSTABLE if reasons else _verdict(value, lower, upper, row["status"])
-                    found.append(
-                        _comparison(
-                            member, metric, cell.label, value, lower, upper,
-                            attributes["units"], verdict, reason,
-                        )
-                    )  # fmt: skip
+                lower, upper = middle - tolerance.half_width, middle + tolerance.half_width
+                verdict = UNSTABLE if reasons else _verdict(value, lower, upper, row["status"])
+                found.append(
+                    _comparison(
+                        member, metric, cell.label, value, lower, upper,
+                        stored[metric].attrs["units"], verdict, (*reasons, tolerance.reason)[0],
+                    )
+                )  # fmt: skip
     return _worst_first(found)
 
 
@@ -107,11 +107,10 @@ def between(after: xr.Dataset, before: xr.Dataset, tolerance: float) -> list[Com
             old, value = cell.values[metric], match.values[metric]
             if math.isnan(old) and math.isnan(value):
                 continue
-            lower, upper = old - tolerance * abs(old), old + tolerance * abs(old)
-            reason = f"{tolerance:g} of the value before"
-            if f"{metric}_lower" in before:
-                lower, upper = cell.values[f"{metric}_lower"], cell.values[f"{metric}_upper"]
-                reason = before[f"{metric}_lower"].attrs["reason"]
+            own = reference.tolerance(before, metric)
+            half = own.half_width if own else tolerance * abs(old)
+            lower, upper = old - half, old + half
+            reason = own.reason if own else f"{tolerance:g} of the value before"
             verdict = _verdict(value, lower, upper, match.status)
             units = before[metric].attrs["units"]
             found.append(_comparison("", metric, cell.label, value, lower, upper, units, verdict, reason))

@@ -4,12 +4,9 @@ They lie in `results/reference`, tracked, one netCDF file a study; `thesis_value
 the ranges that the thesis's text and axes give.
 """
 
-import math
 from functools import cache
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import xarray as xr
 import yaml
 from pydantic import TypeAdapter
@@ -45,6 +42,14 @@ def load(name: str) -> xr.Dataset | None:
 def metrics(dataset: xr.Dataset) -> list[str]:
     """Names of the metrics in a combined dataset."""
     return [str(name) for name, v in dataset.data_vars.items() if v.attrs.get("group") == "metric"]
+
+
+def tolerance(dataset: xr.Dataset, metric: str) -> Tolerance | None:
+    """How far from the values of a reference the metric may be; None if it is not to be judged."""
+    attributes = dataset[metric].attrs
+    if "half_width" not in attributes:
+        return None
+    return Tolerance(float(attributes["half_width"]), str(attributes["half_width_reason"]))
 
 
 @parameters
@@ -96,7 +101,7 @@ def make(hydra: Session, name: str, store_folder: str) -> list[Path]:
         configs = [part.config_at(index) for index in own.drop_duplicates("record").index]
         dataset, _ = collect.collect(configs, Store(store_folder), member)
         path = folder() / f"{member}.nc"
-        write(_with_intervals(dataset, allowed), path)
+        write(_with_intervals(dataset, allowed), path, "NETCDF3_64BIT")
         paths.append(path)
     return paths
 
@@ -104,14 +109,7 @@ def make(hydra: Session, name: str, store_folder: str) -> list[Path]:
 def _with_intervals(dataset: xr.Dataset, allowed: dict[str, Tolerance]) -> xr.Dataset:
     dataset = dataset.drop_vars([n for n, v in dataset.items() if v.attrs.get("group") == "cost"])
     for metric in metrics(dataset):
-        variable = dataset[metric]
-        tolerance = allowed.get(metric, Tolerance(math.nan, "not in the choices study: not judged"))
-        for side, sign in (("lower", -1.0), ("upper", 1.0)):
-            attributes: dict[str, Any] = {
-                "units": variable.attrs["units"],
-                "long_name": f"{side} end of the accepted interval of {metric}",
-                "reason": tolerance.reason,
-            }
-            bound = variable.values + sign * np.float64(tolerance.half_width)
-            dataset[f"{metric}_{side}"] = (variable.dims, bound, attributes)
+        if metric in allowed:
+            dataset[metric].attrs["half_width"] = allowed[metric].half_width
+            dataset[metric].attrs["half_width_reason"] = allowed[metric].reason
     return dataset

@@ -65,7 +65,7 @@ def hashable(value: Any) -> Any:
     """
     if isinstance(value, float) and math.isnan(value):
         return "null"
-    return value if isinstance(value, int | float | str) else json.dumps(value)
+    return value if isinstance(value, int | float | str | np.generic) else json.dumps(value)
 
 
 def collect(configs: list[RunConfig], store: Store, name: str | None = None) -> tuple[xr.Dataset, Path]:

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import xarray as xr
 
@@ -126,12 +127,22 @@ def _matching(rows: pd.DataFrame, place: dict[str, Any]) -> pd.Series | None:
 
 
 def _agree(settings: Any, place: dict[str, Any]) -> bool:
-    # Coordinates that are a mixture of numbers and words are all written as words.
-    return all(
-        settings[key] == value or str(hashable(settings[key])) == str(value)
-        for key, value in place.items()
-        if key in settings
-    )
+    return all(_plain(settings[key]) == _plain(v) for key, v in place.items() if key in settings)
+
+
+def _plain(value: Any) -> float | str:
+    """A setting in the one form in which tables and coordinates can be told equal.
+
+    Coordinates that are a mixture of numbers and words are all written as words, columns of a table that
+    lack a whole number in some rows have only fractions.
+    """
+    value = hashable(value)
+    if isinstance(value, bool | np.bool_):
+        return str(value)
+    try:
+        return float(value)
+    except ValueError:
+        return str(value)
 
 
 def _verdict(value: float, lower: float, upper: float, status: str) -> str:

@@ -6,8 +6,8 @@ import pandas as pd
 
 from sphstudy.results import Results
 
-CONTROL = "method.skin"
-"""A setting that changes nothing but the order in which numbers are added: its effect is rounding."""
+CONTROL = "scene.rho"
+"""A setting that is changed in its eleventh digit only: its effect is what may become of rounding."""
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ blocks:
     scene: plate
     n: 5
     scene.periods: 0.3
-    vary: {method.skin: 0.3, scene.columns: spacing, scene.plane: stress}
+    vary: {scene.rho: 7750.0000001, scene.columns: spacing, scene.plane: stress}
 """
 COMMIT = "0123456789" * 4
 

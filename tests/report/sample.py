@@ -26,7 +26,7 @@ blocks:
     scene: plate
     h: 1.5
     n: 9
-    vary: {method.skin: 0.3, method.artificial_stress: 0.3}
+    vary: {scene.rho: 7750.0000001, method.artificial_stress: 0.3}
 figures: [made_up.good, made_up.unwritable, made_up.broken, made_up.lacking, made_up.unheard_of]
 claims: [T1]
 """
@@ -97,7 +97,7 @@ def load(folder, monkeypatch, hydra, stored=True):
     if stored:
         for row, point in found.table.iterrows():
             outcome = OUTCOMES.get((point["h"], point["n"]))
-            if outcome and "skin" not in point["varied"]:
+            if outcome and "rho" not in point["varied"]:
                 status, message, error, seconds = outcome
                 error = ARTIFICIAL if point["varied"] else error
                 metrics = {} if error is None else {"frequency_error": Metric(error, "1", "error of ω")}

@@ -83,7 +83,7 @@ def test_points_that_are_not_done_stand_there_with_what_went_wrong(read):
     assert "diverged grid: plate h=1.3 n=15: speed 3e9 at step 17" in shown(read)
     assert f"failed grid: plate h=1.3 n=21: {sample.MESSAGE}" in shown(read)
     assert "missing grid: plate h=1.5 n=21" in shown(read)
-    assert "missing options: plate h=1.5 n=9, method.skin=0.3" in shown(read)
+    assert "missing options: plate h=1.5 n=9, scene.rho=7750.0000001" in shown(read)
 
 
 def test_effects_are_differences_from_the_block_without_change(read):

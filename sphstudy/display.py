@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-import netCDF4
 from rich.console import Console, Group
 from rich.live import Live
 from rich.progress_bar import ProgressBar
@@ -14,7 +13,6 @@ from rich.table import Table
 
 from sphstudy.config import RunConfig
 from sphstudy.progress import read_marker
-from sphstudy.record import STATUS
 from sphstudy.store import Store
 
 _INTERVAL = 0.5
@@ -52,12 +50,13 @@ class _Follower:
 
     def outcome(self) -> str:
         """Status and CPU time of the finished run."""
-        with netCDF4.Dataset(self.record) as run:
-            status = STATUS[int(run["status"][...])]
-            seconds = float(run["cpu_seconds"][...]) if "cpu_seconds" in run.variables else None
-            message = run.message
-        cpu = f", {seconds:.1f} s of CPU" if seconds is not None else ""
-        return f"{status}{cpu}" + (f" ({message})" if message else "")
+        summary = self.store.summary(self.config)
+        if summary is None:
+            return "unreadable"
+        seconds = summary.numbers.get("cpu_seconds")
+        cpu = f", {seconds[0]:.1f} s of CPU" if seconds else ""
+        message = summary.attributes["message"]
+        return f"{summary.status}{cpu}" + (f" ({message})" if message else "")
 
 
 class _Board:

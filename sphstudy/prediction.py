@@ -9,7 +9,7 @@ import netCDF4
 
 from sphstudy.config import RunConfig, method_module, scene_module, solver_module, validate
 from sphstudy.record import STATUS
-from sphstudy.store import Store
+from sphstudy.store import FILES, Store
 
 SECONDS_PER_PAIR_STEP = 4e-8
 """CPU time of a step per pair where the store has no run to learn from, on one Zen 4 core."""
@@ -45,7 +45,7 @@ def rates(store: Store) -> Rates:
     found: dict[tuple[str, str], list[float]] = defaultdict(list)
     for path in store.runs.glob("*.nc"):
         try:
-            with netCDF4.Dataset(path) as run:
+            with FILES, netCDF4.Dataset(path) as run:
                 if STATUS[int(run["status"][...])] != "done":
                     continue
                 config = validate(json.loads(run.configuration))

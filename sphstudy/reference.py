@@ -16,7 +16,7 @@ from sphstudy.composition import Session
 from sphstudy.config import ConfigurationError
 from sphstudy.effects import effects
 from sphstudy.parameters import described, number, parameters
-from sphstudy.store import Store, write
+from sphstudy.store import Store, read_dataset, write
 from sphstudy.study import Values
 from sphstudy.tolerance import Tolerance, tolerances
 
@@ -35,8 +35,7 @@ def load(name: str) -> xr.Dataset | None:
     path = folder() / f"{name}.nc"
     if not path.is_file():
         return None
-    with xr.open_dataset(path, engine="netcdf4") as dataset:
-        return dataset.load()
+    return read_dataset(str(path), path.parent)
 
 
 def metrics(dataset: xr.Dataset) -> list[str]:

@@ -10,6 +10,7 @@ import math
 import os
 import sys
 import tempfile
+import threading
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -32,6 +33,9 @@ class Summary:
     attributes: dict[str, Any]
     numbers: dict[str, tuple[float, dict[str, Any]]]
 
+
+FILES = threading.RLock()
+"""Held while a netCDF file is open: the library is not made for threads, and the display is one."""
 
 REUSED = ("done", "diverged")
 """Outcomes that are results: such a point is not computed again."""
@@ -82,7 +86,7 @@ class Store:
             return None
         try:
             # Twenty times faster than through xarray, which matters for a report on a hundred runs.
-            with netCDF4.Dataset(path) as run:
+            with FILES, netCDF4.Dataset(path) as run:
                 status = STATUS[int(run["status"][...])]
                 attributes = {name: run.getncattr(name) for name in run.ncattrs()}
                 own = {name: v.__dict__ for name, v in run.variables.items() if v.ndim == 0}
@@ -107,7 +111,7 @@ def read(path: Path) -> xr.Dataset | None:
     if not path.exists():
         return None
     try:
-        with xr.open_dataset(path, engine="netcdf4") as run:
+        with FILES, xr.open_dataset(path, engine="netcdf4") as run:
             run = run.load()
         if "status" not in run or "configuration" not in run.attrs:
             raise ValueError("not a record of this program")
@@ -131,7 +135,7 @@ def read_dataset(name: str, results: str | Path) -> xr.Dataset:
     candidates = [Path(name), Path(results) / "sweeps" / f"{name}.nc"]
     for path in candidates:
         if path.is_file():
-            with xr.open_dataset(path, engine="netcdf4") as dataset:
+            with FILES, xr.open_dataset(path, engine="netcdf4") as dataset:
                 return dataset.load()
     raise ConfigurationError([f"{name}: there is neither {' nor '.join(map(str, candidates))}"])
 
@@ -151,7 +155,8 @@ def write(dataset: xr.Dataset, path: Path, format: Format = "NETCDF4") -> None:
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=".writing-", suffix=".nc")
     os.close(handle)
     try:
-        dataset.to_netcdf(temporary, engine="netcdf4", format=format, encoding=encoding)
+        with FILES:
+            dataset.to_netcdf(temporary, engine="netcdf4", format=format, encoding=encoding)
         with open(temporary, "rb") as file:
             os.fsync(file.fileno())
         os.chmod(temporary, 0o644)

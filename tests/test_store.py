@@ -1,5 +1,8 @@
 """The store: atomic writes, honest reads, clear refusals."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -55,3 +58,23 @@ def test_a_folder_that_cannot_be_written_is_refused_by_name(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(ConfigurationError, match=r"results=.*file: cannot be written"):
         Store(tmp_path / "file").prepare()
+
+
+def test_threads_do_not_disturb_each_other(tmp_path, dataset):
+    """The display looks at records while the program reads and writes others: run in a process of its
+    own, since the library's answer to two threads is a segmentation fault.
+    """
+    write(dataset.assign(y=(("j", "k"), np.ones((50, 40)))), tmp_path / "a.nc")
+    script = (
+        "import sys, threading; from pathlib import Path;"
+        "from sphstudy.store import Store, read, write;"
+        f"store, path = Store('.'), Path({str(tmp_path / 'a.nc')!r});"
+        "store.record_path = lambda config: path;"
+        "looks = threading.Thread(target=lambda: [store.summary(None) for _ in range(400)]);"
+        "looks.start();"
+        "[write(read(path), path.with_name('b.nc')) for _ in range(60)];"
+        "looks.join(); assert path.exists()"
+    )
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+    assert result.returncode == 0, result.stderr
+    assert result.stderr == ""

@@ -300,10 +300,10 @@ def test_effects_have_size_sign_and_what_is_missing(full):
 
     axes = drawn(choices.mode1, found).axes[0]
     labels = [label.get_text() for label in axes.get_yticklabels()]
-    assert labels[-1] == "rho = 7750.0000001"
+    assert labels[-1] == "control"
     marks = {labels[round(one.get_ydata()[0])]: one for one in axes.get_lines()}
     assert axes.get_title() == "$G_1$ error\nbase: \N{MINUS SIGN}10 %"
-    layer, control = marks["frame_layers = 1"], marks["rho = 7750.0000001"]
+    layer, control = marks["frame_layers = 1"], marks["control"]
     np.testing.assert_allclose([layer.get_xdata()[0], control.get_xdata()[0]], [2.0, 1e-2], rtol=1e-6)
     assert (layer.get_marker(), control.get_marker()) == ("v", "o")
     assert marks["settle_steps = 8000"].get_marker() == "^"

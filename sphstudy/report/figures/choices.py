@@ -18,8 +18,8 @@ _CAPTION = (
     "each mark is the change of a metric (title, with its value in the base) when one setting is "
     "varied and all else kept; triangles point up where it grows and down where it falls, on a "
     "logarithmic axis; the numbers beside them carry the sign; what has a number only is too "
-    "small for the axis, a 0 no change to the last bit. Grey: the effect of the control, method.skin, "
-    "which changes only the order in which numbers are added; what lies in the grey is rounding."
+    "small for the axis, a 0 no change to the last bit. Grey: the effect of the control, a "
+    "density changed in its eleventh digit; what lies in the grey may be rounding."
 )
 
 _POINTS = "percentage points"
@@ -137,6 +137,8 @@ def _panel(axes: Axes, rows: pd.DataFrame, changes: dict[str, float]) -> None:
 
 def _label(varied: str) -> str:
     """What was varied, as it is set, without the group it belongs to."""
+    if varied.startswith(CONTROL):
+        return "control"
     parts = (setting.partition("=") for setting in varied.split(", "))
     return ", ".join(f"{key.rpartition('.')[2]} = {_short(value)}" for key, _, value in parts)
 

@@ -1,0 +1,79 @@
+"""The references as stored: whole, of committed sources, and no wider than the open choices allow."""
+
+import math
+
+import pytest
+
+from sphstudy import reference, study
+from sphstudy.blocks import StudyPoints
+from sphstudy.cells import cells
+from sphstudy.composition import session
+from sphstudy.effects import CONTROL
+
+STORED = ("plate", "bending", "mode1", "mode2", "small", "choices")
+
+
+@pytest.mark.parametrize(
+    ("name", "resolutions"), [("plate", (9, 15, 21)), ("mode1", (40, 50, 60)), ("mode2", (40, 50, 60))]
+)
+def test_all_twelve_cells_are_there(name, resolutions):
+    done = {(c.flat["h"], c.flat["n"]) for c in cells(reference.load(name)) if c.status == "done"}
+    assert done == {(h, n) for h in (1.3, 1.5, 1.7, 1.9) for n in resolutions}
+
+
+@pytest.mark.parametrize("name", STORED)
+def test_each_comes_from_committed_sources_and_says_from_what(name):
+    attributes = reference.load(name).attrs
+    assert len(attributes["git_state"]) == 40
+    for key in ("sphstudy_version", "library_versions", "processor", "python_version"):
+        assert attributes[key]
+
+
+@pytest.fixture(scope="module")
+def smallest_effects():
+    """Of each metric: the smallest effect of an open choice that is not rounding, found without the
+    product's own rule for it.
+    """
+    points = {tuple(sorted(map(str, c.flat.items()))): c for c in cells(reference.load("choices"))}
+    found = {}
+    with session() as hydra:
+        blocks = StudyPoints(hydra, "choices", []).blocks
+    for block in blocks.values():
+        base, *others = (points[tuple(sorted(map(str, p.config.flat().items())))] for p in block)
+        (control,) = [o for o in others if o.flat[CONTROL] != base.flat[CONTROL]]
+        for metric in reference.metrics(reference.load("choices")):
+            noise = abs(control.values[metric] - base.values[metric])
+            for other in others:
+                effect = abs(other.values[metric] - base.values[metric])
+                if (
+                    other is not control
+                    and effect > 100.0 * noise
+                    and effect > 1e-9 * abs(base.values[metric])
+                ):
+                    found[metric] = min(effect, found.get(metric, math.inf))
+    return found
+
+
+@pytest.mark.parametrize("name", STORED)
+def test_no_interval_is_wider_than_three_times_the_smallest_effect(name, smallest_effects):
+    stored = reference.load(name)
+    judged = 0
+    for metric in reference.metrics(stored):
+        tolerance = reference.tolerance(stored, metric)
+        if tolerance is not None and "half of the smallest effect" in tolerance.reason:
+            assert 2.0 * tolerance.half_width <= 3.0 * smallest_effects[metric], metric
+            judged += 1
+    assert judged > 10
+
+
+def test_what_sits_in_the_instability_is_named_with_a_reason():
+    named = study.load("plate").unstable
+    assert [dict(entry.where) for entry in named] == [{"h": 1.3, "n": [15, 21]}]
+    assert all(entry.reason for entry in named)
+
+
+def test_the_values_that_the_thesis_prints_are_ranges_of_metrics_that_exist():
+    for entry in reference.printed():
+        assert entry.lower < entry.upper
+        assert entry.source
+        assert entry.metric in reference.metrics(reference.load(entry.study))

@@ -31,25 +31,24 @@ def test_each_comes_from_committed_sources_and_says_from_what(name):
 
 @pytest.fixture(scope="module")
 def smallest_effects():
-    """Of each metric: the smallest effect of an open choice that is not rounding, found without the
-    product's own rule for it.
+    """Of each metric: the smallest effect of an open choice that is not rounding (of what the control
+    does, or of the metric's largest value), found without the product's own code for it.
     """
     points = {tuple(sorted(map(str, c.flat.items()))): c for c in cells(reference.load("choices"))}
-    found = {}
+    metrics, found = reference.metrics(reference.load("choices")), {}
+    size = {
+        m: max(abs(c.values[m]) for c in points.values() if c.values[m] == c.values[m]) for m in metrics
+    }
     with session() as hydra:
         blocks = StudyPoints(hydra, "choices", []).blocks
     for block in blocks.values():
         base, *others = (points[tuple(sorted(map(str, p.config.flat().items())))] for p in block)
         (control,) = [o for o in others if o.flat[CONTROL] != base.flat[CONTROL]]
-        for metric in reference.metrics(reference.load("choices")):
+        for metric in metrics:
             noise = abs(control.values[metric] - base.values[metric])
             for other in others:
                 effect = abs(other.values[metric] - base.values[metric])
-                if (
-                    other is not control
-                    and effect > 100.0 * noise
-                    and effect > 1e-9 * abs(base.values[metric])
-                ):
+                if other is not control and effect > max(100.0 * noise, 1e-9 * size[metric]):
                     found[metric] = min(effect, found.get(metric, math.inf))
     return found
 

@@ -103,9 +103,16 @@ def clumping(results: Results) -> Finding:
     told = (
         f"n = {case['n']}, cubic spline at 1.7, spread at the end over that at 11 s: "
         f"{number(grown['bottom'], 3)} below, {number(grown['top'], 3)} above, {number(unloaded, 3)} "
-        f"below at a thousandth of the load; below over above (kernel, h̃): {_listed(points, ratio)}"
+        f"below at a thousandth of the load (to {size(case['spacing_spread_bottom'])} and "
+        f"{size(little['spacing_spread_bottom'])}); below over above (kernel, h̃): "
+        f"{_listed(points, ratio)}"
     )
-    cause = "W'' < 0 at the nearest neighbour for h̃ = 1.7: the same instability, in compression"
+    cause = (
+        "W'' < 0 at the nearest neighbour for h̃ = 1.7: the same instability, in compression; what little "
+        "unevenness there is without load grows too, but more slowly"
+        if not stress_driven and unloaded < grown["bottom"]
+        else "W'' < 0 at the nearest neighbour for h̃ = 1.7: the same instability, in compression"
+    )
     found = verdict(below and stress_driven and follows, below and (stress_driven or follows))
     return Finding(found, told, cause)
 

@@ -72,6 +72,7 @@ def study_command(arguments: list[str], force: bool, dry_run: bool) -> int:
     settings = [a for a in overrides if a not in launcher_overrides(overrides)]
     with session() as hydra:
         points, folder, skipped = all_points(hydra, name, settings)
+        review.check(name)
         for complaint in skipped:
             print(f"left out: {complaint}")
         store = Store(folder)

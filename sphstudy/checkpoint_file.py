@@ -10,19 +10,22 @@ from typing import Any
 
 import numpy as np
 
+from sphstudy.compile_timer import compiling_so_far
 from sphstudy.solve.checkpoint import Checkpoint
 
 
 class CheckpointFile:
     """The checkpoint of a run, renewed every `interval` seconds of wall time.
 
-    `cpu_seconds`, `wall_seconds`: spent before this process took over, 0 without a checkpoint.
+    `cpu_seconds`, `wall_seconds`: spent before this process took over, compilation apart; 0 without a
+    checkpoint.
     """
 
     def __init__(self, path: Path, interval: float):
         self.path, self.interval = path, interval
         self.cpu_seconds = self.wall_seconds = 0.0
         self._wall, self._cpu = time.perf_counter(), time.process_time()
+        self._compiling = compiling_so_far()
         self._last = time.monotonic()
 
     def load(self) -> Checkpoint | None:
@@ -30,11 +33,12 @@ class CheckpointFile:
         try:
             with open(self.path, "rb") as file:
                 arrays = dict(np.load(file, allow_pickle=False))
-            self.cpu_seconds, self.wall_seconds = arrays.pop("spent").tolist()
-            return Checkpoint.from_arrays(arrays)
+            checkpoint = Checkpoint.from_arrays(arrays)
+            self.cpu_seconds, self.wall_seconds = arrays["spent"].tolist()
+            return checkpoint
         except FileNotFoundError:
             return None
-        except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
+        except (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile) as error:
             print(f"{self.path.name}: unreadable ({error}); the run starts anew", file=sys.stderr)
             return None
 
@@ -43,10 +47,21 @@ class CheckpointFile:
         return time.monotonic() - self._last >= self.interval
 
     def save(self, checkpoint: Checkpoint) -> None:
-        """Writes the checkpoint so that the file holds either the old one or the whole new one."""
+        """Writes the checkpoint so that the file holds either the old one or the whole new one.
+
+        A disk that is full costs the checkpoint, not the run.
+        """
+        try:
+            self._write(checkpoint)
+        except OSError as error:
+            print(f"{self.path.name}: not written ({error}); the run goes on", file=sys.stderr)
+        self._last = time.monotonic()
+
+    def _write(self, checkpoint: Checkpoint) -> None:
+        compiling = compiling_so_far()
         spent = (
-            self.cpu_seconds + time.process_time() - self._cpu,
-            self.wall_seconds + time.perf_counter() - self._wall,
+            self.cpu_seconds + time.process_time() - self._cpu - (compiling[1] - self._compiling[1]),
+            self.wall_seconds + time.perf_counter() - self._wall - (compiling[0] - self._compiling[0]),
         )
         handle, temporary = tempfile.mkstemp(dir=self.path.parent, prefix=".writing-")
         try:
@@ -59,7 +74,6 @@ class CheckpointFile:
         except BaseException:
             Path(temporary).unlink(missing_ok=True)
             raise
-        self._last = time.monotonic()
 
     def remove(self) -> None:
         """Removes the file: the run has its record."""

@@ -95,24 +95,27 @@ def against_thesis(results: Results) -> list[Comparison]:
 def between(after: xr.Dataset, before: xr.Dataset, tolerance: float) -> list[Comparison]:
     """All metrics of two combined datasets, cell by cell; `tolerance` is relative to the value before.
 
-    Where `before` is a stored reference, its own intervals hold. Raises ValueError if either is not a
-    combined dataset.
+    Where `before` is a stored reference, its own intervals hold. Cells and metrics that `after` lacks are
+    there as missing. Raises ValueError if either is not a combined dataset, or if several cells of
+    `after` stand for one of `before`.
     """
     now = cells(after)
     found: list[Comparison] = []
     for cell in cells(before):
-        match = next((c for c in now if _agree(c.flat, cell.place)), None)
-        if match is None:
-            continue
-        for metric in (m for m in reference.metrics(before) if m in after):
-            old, value = cell.values[metric], match.values[metric]
-            if math.isnan(old) and math.isnan(value):
+        matches = [c for c in now if _agree(c.flat, cell.place)]
+        if len(matches) > 1:
+            raise ValueError(f"{len(matches)} cells of the one dataset are {cell.label} of the other")
+        values = matches[0].values if matches else {}
+        status = matches[0].status if matches else "missing"
+        for metric in reference.metrics(before):
+            old, value = cell.values[metric], values.get(metric, math.nan)
+            if math.isnan(old):
                 continue
             own = reference.tolerance(before, metric)
             half = own.half_width if own else tolerance * abs(old)
             lower, upper = old - half, old + half
             reason = own.reason if own else f"{tolerance:g} of the value before"
-            verdict = _verdict(value, lower, upper, match.status)
+            verdict = _verdict(value, lower, upper, status if metric in values else "missing")
             units = before[metric].attrs["units"]
             found.append(_comparison("", metric, cell.label, value, lower, upper, units, verdict, reason))
     return _worst_first(found)

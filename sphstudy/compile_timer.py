@@ -29,6 +29,11 @@ _LISTENER = _Listener()
 event.register("numba:compile", _LISTENER)
 
 
+def compiling_so_far() -> tuple[float, float]:
+    """Seconds that this process has spent compiling, of wall and of CPU time."""
+    return _LISTENER.wall, _LISTENER.cpu
+
+
 class CompileTimer:
     """Seconds spent compiling inside a `with` block, 0 from a warm cache: of wall and of CPU time."""
 

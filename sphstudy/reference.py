@@ -11,7 +11,7 @@ import xarray as xr
 import yaml
 from pydantic import TypeAdapter
 
-from sphstudy import collect, provenance, results, study
+from sphstudy import collect, provenance, results
 from sphstudy.composition import Session
 from sphstudy.config import ConfigurationError
 from sphstudy.effects import effects
@@ -82,23 +82,20 @@ def make(hydra: Session, name: str, store_folder: str) -> list[Path]:
     if len(state) != 40:
         raise ConfigurationError([f"reference {name}: the sources are {state}: commit them first"])
     choices = results.load(CHOICES, hydra, [], store_folder)
+    whole = results.load(name, hydra, [], store_folder)
+    complaints = [
+        f"reference {name}: {row['record']} is {row['status']} {row['git_state']}".rstrip()
+        for table in (whole.table, choices.table)
+        for _, row in table.drop_duplicates("record").iterrows()
+        if row["status"] not in ("done", "diverged") or len(row["git_state"]) != 40
+    ]
+    if complaints:
+        raise ConfigurationError(list(dict.fromkeys(complaints)))
     allowed = tolerances(effects(choices))
     paths = []
-    for member in study.members(name):
-        part = results.load(member, hydra, [], store_folder)
-        own = part.table[part.table["study"] == member]
-        if own.empty:
-            continue
-        complaints = [
-            f"reference {member}: {row['record']} is {row['status']} {row['git_state']}".rstrip()
-            for source in (own, choices.table)
-            for _, row in source.iterrows()
-            if row["status"] not in ("done", "diverged") or len(row["git_state"]) != 40
-        ]
-        if complaints:
-            raise ConfigurationError(complaints)
-        configs = [part.config_at(index) for index in own.drop_duplicates("record").index]
-        dataset, _ = collect.collect(configs, Store(store_folder), member)
+    for member, own in whole.table.groupby("study", sort=False):
+        configs = [whole.config_at(index) for index in own.drop_duplicates("record").index]
+        dataset, _ = collect.collect(configs, Store(store_folder), str(member))
         path = folder() / f"{member}.nc"
         write(_with_intervals(dataset, allowed), path, "NETCDF3_64BIT")
         paths.append(path)

@@ -69,7 +69,8 @@ class Results:
         """A metric of the one point with these settings. Raises Missing if it is not there."""
         row = self._only(settings, block)
         if metric not in self.table or pd.isna(value := self.table.at[row, metric]):
-            raise Missing(f"{self.name}: {self._label(row)} is {self.table.at[row, 'status']}")
+            status = self.table.at[row, "status"]
+            raise Missing(f"{self.name}: {self._label(row)} is {status}, without {metric}")
         return float(value)
 
     def record(self, settings: dict[str, Any] | None = None, block: str | None = None) -> xr.Dataset:

@@ -1,7 +1,9 @@
 """What is made of stored results without running anything: comparison, report, references, metrics."""
 
+import math
 import re
 import time
+from collections import Counter
 from pathlib import Path
 
 from rich.box import SIMPLE_HEAD
@@ -9,12 +11,12 @@ from rich.table import Table
 
 from sphstudy import collect, compare, reference, study
 from sphstudy.blocks import all_points
-from sphstudy.claims.claim import checked
-from sphstudy.compare import OUTSIDE, Comparison
+from sphstudy.claims import claim
+from sphstudy.compare import MISSING, OUTSIDE, Comparison
 from sphstudy.composition import Session, session
 from sphstudy.config import ConfigurationError
 from sphstudy.record import STATUS
-from sphstudy.results import Results, load
+from sphstudy.results import load
 from sphstudy.runner import measured
 from sphstudy.store import Store, read_dataset, write
 from sphstudy.tables import console, print_tables
@@ -29,6 +31,19 @@ def report_name(name: str, overrides: list[str]) -> str:
     return re.sub(r"[^\w.+=-]+", "_", "-".join([name, *changed]))
 
 
+def check(name: str) -> None:
+    """Raises ConfigurationError if a study names a claim, figure or study that does not exist."""
+    # Drawing takes a second to load, which no other command should wait for.
+    from sphstudy.report import figure
+
+    for member in dict.fromkeys([*study.members(name), *study.load(name).shows]):
+        definition = study.load(member)
+        for claim_id in definition.claims:
+            claim.find(claim_id)
+        for figure_name in definition.figures:
+            figure.find(figure_name)
+
+
 def review(hydra: Session, name: str, overrides: list[str], folder: str) -> int:
     """Compares a study with its references, prints its claims and writes its report.
 
@@ -38,20 +53,27 @@ def review(hydra: Session, name: str, overrides: list[str], folder: str) -> int:
     from sphstudy.report.page import write as write_page
 
     found = load(name, hydra, overrides, folder)
-    for claim, finding in checked(found):
-        print(f"claim {claim.id}: {finding.verdict}: {finding.numbers}")
-    status = _print_reference(found, SHOWN)
+    for one, finding in claim.checked(found):
+        print(f"claim {one.id}: {finding.verdict}: {finding.numbers}")
+    compared = compare.against_reference(found)
+    if compared:
+        outside = _print(compared, SHOWN)[OUTSIDE]
+    else:
+        outside = 0
+        print(f"{name}: there is no stored reference to compare with")
     began = time.perf_counter()
     path = write_page(found, Path(folder) / "reports" / report_name(name, overrides))
     print(f"report: {path} ({time.perf_counter() - began:.0f} s)")
-    return status
+    return 1 if outside else 0
 
 
 def report_command(arguments: list[str]) -> int:
     """`sphstudy report STUDY [key=value …]`: figures and page from stored data."""
     name, overrides = _named(arguments, "report")
     with session() as hydra:
-        return review(hydra, name, overrides, _folder(hydra, name, overrides))
+        folder = _folder(hydra, name, overrides)
+        Store(folder).prepare()
+        return review(hydra, name, overrides, folder)
 
 
 def measure_command(arguments: list[str]) -> int:
@@ -60,6 +82,7 @@ def measure_command(arguments: list[str]) -> int:
     with session() as hydra:
         points, folder, _ = all_points(hydra, name, overrides)
         store, count = Store(folder), 0
+        store.prepare()
         for point in points:
             run = store.read(point.config)
             if run is not None and STATUS[int(run["status"])] == "done":
@@ -84,40 +107,47 @@ def reference_command(arguments: list[str]) -> int:
 
 
 def compare_command(arguments: list[str]) -> int:
-    """`sphstudy compare A [B] [tolerance=1e-6] [all=true]`: a table; 1 if anything lies outside."""
+    """`sphstudy compare A [B] [tolerance=1e-6] [all=true]`: a table; 1 if anything is outside or missing.
+
+    Raises ConfigurationError on wrong input, and if there is nothing to compare.
+    """
     given = [a for a in arguments if "=" not in a]
     options = dict(a.partition("=")[::2] for a in arguments if "=" in a)
-    limit = None if options.pop("all", "false") == "true" else SHOWN
-    text = options.pop("tolerance", "1e-6")
+    shown, text = options.pop("all", "false"), options.pop("tolerance", "1e-6")
     results = options.pop("results", "results")
-    if options or not 1 <= len(given) <= 2:
+    files = len(given) == 2 and given[1] != "printed"
+    if options or not 1 <= len(given) <= 2 or (given[0].endswith(".nc") and not files):
         raise ConfigurationError(
             ["compare: write compare STUDY, compare STUDY printed or compare FILE FILE (see --help)"]
         )
+    if shown not in ("true", "false"):
+        raise ConfigurationError([f"all={shown}: should be true or false"])
     try:
-        tolerance = float(text)
+        if not 0.0 <= (tolerance := float(text)) < math.inf:
+            raise ValueError
     except ValueError:
-        raise ConfigurationError([f"tolerance={text}: should be a number"]) from None
-    if given[0].endswith(".nc") or (len(given) == 2 and given[1] != "printed"):
-        after, before = (read_dataset(name, results) for name in (given[0], given[-1]))
-        return _print(compare.between(after, before, tolerance), limit)
+        raise ConfigurationError([f"tolerance={text}: should be a number, not negative"]) from None
+    rows = _compared(given, files, results, tolerance)
+    if not rows:
+        raise ConfigurationError([f"compare {' '.join(given)}: there is nothing to compare"])
+    counts = _print(rows, None if shown == "true" else SHOWN)
+    return 1 if counts[OUTSIDE] or counts[MISSING] else 0
+
+
+def _compared(given: list[str], files: bool, results: str, tolerance: float) -> list[Comparison]:
+    if files:
+        after, before = (read_dataset(name, results) for name in given)
+        try:
+            return compare.between(after, before, tolerance)
+        except ValueError as error:
+            raise ConfigurationError([f"compare {' '.join(given)}: {error}"]) from None
     with session() as hydra:
         found = load(given[0], hydra, [f"results={results}"])
-        if given[1:] == ["printed"]:
-            return _print(compare.against_thesis(found), limit)
-        return _print_reference(found, limit)
+    return compare.against_thesis(found) if given[1:] else compare.against_reference(found)
 
 
-def _print_reference(found: Results, limit: int | None) -> int:
-    members = study.members(found.name)
-    if not any(reference.load(member) is not None for member in members):
-        print(f"{found.name}: there is no stored reference to compare with")
-        return 0
-    return _print(compare.against_reference(found), limit)
-
-
-def _print(rows: list[Comparison], limit: int | None) -> int:
-    """Prints the rows, worst first; returns 1 if any is outside."""
+def _print(rows: list[Comparison], limit: int | None) -> Counter[str]:
+    """Prints the rows, worst first; returns how many there are of each verdict."""
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
     for heading in ("metric", "cell", "value", "accepted", "unit", "verdict", "reason"):
         table.add_column(heading, justify="right" if heading == "value" else "left", overflow="fold")
@@ -127,16 +157,18 @@ def _print(rows: list[Comparison], limit: int | None) -> int:
             row.metric, row.cell, f"{row.value:.6g}", interval, row.units, row.verdict, row.reason
         )
     console().print(table)
-    counts = {v: sum(row.verdict == v for row in rows) for v in dict.fromkeys(r.verdict for r in rows)}
-    print("compared: " + (", ".join(f"{c} {verdict}" for verdict, c in counts.items()) or "nothing"))
+    counts = Counter(row.verdict for row in rows)
+    print("compared: " + ", ".join(f"{count} {verdict}" for verdict, count in counts.items()))
     if limit is not None and len(rows) > limit:
         print(f"the {limit} worst of {len(rows)} are shown; all of them with `compare … all=true`")
-    return 1 if counts.get(OUTSIDE) else 0
+    return counts
 
 
 def _named(arguments: list[str], command: str) -> tuple[str, list[str]]:
     if not arguments or "=" in arguments[0]:
         raise ConfigurationError([f"{command}: name one of {', '.join(study.names())}"])
+    if wrong := [a for a in arguments[1:] if "=" not in a]:
+        raise ConfigurationError([f"{a}: neither a flag of {command} nor key=value" for a in wrong])
     return arguments[0], arguments[1:]
 
 

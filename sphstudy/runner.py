@@ -36,7 +36,9 @@ def run_point(config: RunConfig, store: Store, checkpoint: float) -> xr.Dataset:
             run = record.with_outcome(xr.Dataset(), "failed", message, {}, _attributes(config))
         run.attrs["date_created"] = started
         write(run, store.record_path(config))
-    keeper.remove()
+    # A failed run is run again: what it had computed until its last checkpoint is not lost.
+    if record.STATUS[int(run["status"])] != "failed":
+        keeper.remove()
     return run
 
 

@@ -89,7 +89,11 @@ class Store:
             with FILES, netCDF4.Dataset(path) as run:
                 status = STATUS[int(run["status"][...])]
                 attributes = {name: run.getncattr(name) for name in run.ncattrs()}
-                own = {name: v.__dict__ for name, v in run.variables.items() if v.ndim == 0}
+                own = {
+                    name: {key: text for key, text in v.__dict__.items() if not key.startswith("_")}
+                    for name, v in run.variables.items()
+                    if v.ndim == 0
+                }
                 numbers = {
                     name: (float(run[name][...].filled(math.nan)), described)
                     for name, described in own.items()
@@ -135,8 +139,11 @@ def read_dataset(name: str, results: str | Path) -> xr.Dataset:
     candidates = [Path(name), Path(results) / "sweeps" / f"{name}.nc"]
     for path in candidates:
         if path.is_file():
-            with FILES, xr.open_dataset(path, engine="netcdf4") as dataset:
-                return dataset.load()
+            try:
+                with FILES, xr.open_dataset(path, engine="netcdf4") as dataset:
+                    return dataset.load()
+            except (OSError, ValueError, RuntimeError) as error:
+                raise ConfigurationError([f"{path}: cannot be read ({error})"]) from None
     raise ConfigurationError([f"{name}: there is neither {' nor '.join(map(str, candidates))}"])
 
 

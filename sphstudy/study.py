@@ -115,6 +115,10 @@ def grids(study: Study, overrides: list[str]) -> dict[str, list[list[str]]]:
     that nothing is varied in.
     """
     given = dict(override.partition("=")[::2] for override in overrides)
+    if len(given) < len(overrides):
+        keys = [override.partition("=")[0] for override in overrides]
+        twice = [key for key in given if keys.count(key) > 1]
+        raise ConfigurationError([f"{key}: is given twice" for key in twice])
     found = {}
     for block, settings in study.blocks.items():
         vary = settings.get("vary", {})

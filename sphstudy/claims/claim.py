@@ -5,6 +5,7 @@ A study file names its claims by id; every module of `sphstudy.claims` is search
 
 import importlib
 import pkgutil
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
@@ -44,6 +45,7 @@ class Claim:
             return Finding(UNKNOWN, str(missing))
         except Exception as error:
             # One rule that fails must not cost the report of a night's runs.
+            print(f"claim {self.id}: {type(error).__name__}: {error}", file=sys.stderr)
             return Finding(UNKNOWN, f"the rule failed: {type(error).__name__}: {error}")
 
 

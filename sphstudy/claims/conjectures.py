@@ -11,8 +11,14 @@ import numpy as np
 import pandas as pd
 
 from sphstudy.claims.claim import Finding, claim
-from sphstudy.claims.reading import size, verdict
-from sphstudy.claims.stability import FULL, INFLECTION, THOUSANDTH, curvature_at_neighbour
+from sphstudy.claims.reading import because, size, verdict
+from sphstudy.claims.stability import (
+    FULL,
+    INFLECTION,
+    THOUSANDTH,
+    curvature_at_neighbour,
+    unstable_side,
+)
 from sphstudy.metrics.roughness import VISIBLE
 from sphstudy.report.text import number
 from sphstudy.results import Missing, Results
@@ -107,14 +113,12 @@ def clumping(results: Results) -> Finding:
         f"{size(little['spacing_spread_bottom'])}); below over above (kernel, h̃): "
         f"{_listed(points, ratio)}"
     )
-    cause = (
-        "W'' < 0 at the nearest neighbour for h̃ = 1.7: the same instability, in compression; what little "
-        "unevenness there is without load grows too, but more slowly"
-        if not stress_driven and unloaded < grown["bottom"]
-        else "W'' < 0 at the nearest neighbour for h̃ = 1.7: the same instability, in compression"
-    )
-    found = verdict(below and stress_driven and follows, below and (stress_driven or follows))
-    return Finding(found, told, cause)
+    reasons = [unstable_side(1.7)] if follows else ["the spreads do not follow the sign of W''"]
+    if not stress_driven:
+        reasons.append("irregularity grows without load too, if less")
+    everything = below and stress_driven and follows
+    found = verdict(everything, below and (stress_driven or follows))
+    return Finding(found, told, "" if everything else because(*reasons))
 
 
 def _growth(point: pd.Series, side: str) -> float:
@@ -150,9 +154,9 @@ def antisymmetry(results: Results) -> Finding:
             f"stress, {_row(off)} without; at a thousandth of the load on average {_row(unloaded)}"
         )
     cause = (
-        "the defects go with the load, with and without artificial stress, mostly whatever the sign "
-        "of W'': displacements near the tip are not small against the spacing, the faces slide past each "
-        "other, and pairs see each other round the tip on one side that do not on the other"
+        "likely: displacements near the tip are not small against the spacing, the faces slide past each "
+        "other, and pairs see each other round the tip on one side that do not on the other; the "
+        "averages at a thousandth of the load say how much of the defects goes with the displacements"
     )
     return Finding(verdict(all(whole), any(somewhere)), "; ".join(told), "" if all(whole) else cause)
 

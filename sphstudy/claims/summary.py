@@ -70,7 +70,10 @@ def recommendations(results: Results) -> Finding:
     )
     near = {mode: grid < FAR_BETTER for mode, grid in ratios.items() if count(grid < FAR_BETTER)}
     cause = because(
-        *(f"{mode}: G1 comes closer than a factor of 3 at {cells(mask)}" for mode, mask in near.items()),
+        *(
+            f"{mode}: G1 comes closer than a factor of {FAR_BETTER:g} at {cells(mask)}"
+            for mode, mask in near.items()
+        ),
         *(f"{name} {number(regret[name], 2)} times the best" for name, fine in good.items() if not fine),
     )
     return Finding(found, told, "" if all(better) and all(good.values()) else cause)

@@ -139,6 +139,7 @@ class Run:
         return min(events)
 
     def _chunked(self, step: int, stop: int) -> tuple[int, bool]:
+        event = step
         while step < stop:
             chunk = min(step + self._chunk, stop)
             begun = time.perf_counter()
@@ -153,8 +154,8 @@ class Run:
             self.on_progress(step, self.total)
             if reason == UNSOUND or (reason == OUTDATED and not self._renew_neighbours()):
                 return step, False
-            # Not at an event: what belongs to it, a sample or a snapshot, has not been taken yet.
-            if step < stop and self.keeper.due():
+            # Between events only: at the last one its snapshot has been taken, at the next one not yet.
+            if event < step < stop and self.keeper.due():
                 self.keeper.save(self._checkpoint(step))
         return step, True
 

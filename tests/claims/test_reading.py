@@ -7,6 +7,7 @@ import pytest
 from sphstudy import study
 from sphstudy.claims import reading, stability
 from sphstudy.claims.claim import UNKNOWN, every_claim, find
+from sphstudy.effects import CONTROL
 from sphstudy.results import Missing
 from tests.claims.synthetic import change, grid, results
 
@@ -93,7 +94,7 @@ def test_open_choices_are_quoted_with_their_extremes_once_all_are_stored():
     made = {"": 0.0, "a=1": -0.02, "b=2": 0.03, "c=3": 0.01}
     rows = [point | {"varied": varied, "G1_error": error} for varied, error in made.items()]
     # The control is no choice; what diverged has no error.
-    rows.append(point | {"varied": "method.skin=0.3", "G1_error": -0.5})
+    rows.append(point | {"varied": f"{CONTROL}=1", "G1_error": -0.5})
     rows.append(point | {"varied": "e=5", "G1_error": float("nan"), "status": "diverged"})
     asked = results("mode1", [], choices=results("choices", rows))
     part = [*rows, point | {"varied": "f=6", "G1_error": float("nan"), "status": "missing"}]

@@ -138,6 +138,28 @@ def test_two_datasets_are_compared_cell_by_cell(place, tmp_path, capsys):
     assert row.split()[0] == "frequency_error"
 
 
+def test_what_is_not_there_is_missing_and_not_passed_over(referenced, place, tmp_path, capsys):
+    assert main(["compare", "tiny", f"results={tmp_path}"]) == 1
+    assert "missing" in capsys.readouterr().out
+    half = sphstudy.open("tiny").isel(n=[0])
+    half.to_netcdf(tmp_path / "half.nc")
+    assert main(["compare", str(tmp_path / "half.nc"), "tiny"]) == 1
+    assert main(["compare", "tiny", str(tmp_path / "half.nc")]) == 0
+
+
+def test_a_study_file_that_names_what_is_not_there_is_refused_before_anything_runs(place, capsys):
+    for text, complaint in (
+        ("claims: [X9]", "claim X9: there is"),
+        ("figures: [plate.gone]", "figure plate.gone: there is no such figure"),
+        ("shows: [gone]", "study gone: there is"),
+    ):
+        path = place / "studies" / "wrong.yaml"
+        path.write_text(f"title: wrong\nblocks: {{grid: {PLATE}}}\n{text}\n")
+        assert main(["study", "wrong", "n=99"]) == 2
+        assert complaint in capsys.readouterr().err
+        path.unlink()
+
+
 def test_measuring_again_gives_the_same_numbers_from_the_fields(place, capsys):
     before = sphstudy.open("tiny")
     assert main(["measure", "tiny"]) == 0
@@ -161,7 +183,7 @@ def test_references_are_refused_from_sources_that_are_not_committed(place, state
 
 
 def test_references_are_refused_for_runs_of_dirty_sources_and_for_missing_runs(place, capsys):
-    path = next((place / "results" / "runs").glob("*h1.7-n7*.nc"))
+    path = place / "results" / "runs" / str(sphstudy.open("tiny")["record"].sel(h=1.7, n=7).item())
     whole = path.read_bytes()
     try:
         with xr.open_dataset(path) as run:
@@ -184,6 +206,14 @@ def test_references_are_refused_for_runs_of_dirty_sources_and_for_missing_runs(p
         (["compare", "tiny", "foo=1"], "write compare STUDY"),
         (["compare", "tiny", "gone.nc"], "gone.nc: there is neither"),
         (["compare", "gone"], "study gone: there is"),
+        (["compare", "one.nc"], "write compare STUDY"),
+        (["compare", "tiny", "all=maybe"], "all=maybe: should be true or false"),
+        (["compare", "tiny", "tiny", "tolerance=-1"], "tolerance=-1: should be a number"),
+        (["compare", "studies/tiny.yaml", "tiny"], "cannot be read"),
+        (["compare", "choices"], "there is nothing to compare"),
+        (["study", "tiny", "n=5", "n=7"], "n: is given twice"),
+        (["measure", "tiny", "-f"], "-f: neither a flag of measure"),
+        (["measure", "tiny", "results=/proc/x"], "cannot be written"),
         (["compare", "tiny", "choices", "tolerance=x"], "tolerance=x: should be a number"),
         (["report"], "report: name one of"),
         (["measure", "gone"], "study gone: there is"),

@@ -6,7 +6,7 @@ import pytest
 from sphstudy.checkpoint_file import CheckpointFile
 from sphstudy.composition import session
 from sphstudy.config import method_module, scene_module
-from sphstudy.solve import explicit
+from sphstudy.solve import explicit, stepping
 from sphstudy.solve.checkpoint import Checkpoint, NoKeeper
 
 CRACK = [
@@ -114,7 +114,47 @@ def test_failed_write_leaves_the_old_file(tmp_path, checkpoint, monkeypatch):
         raise OSError("no space left")
 
     monkeypatch.setattr(np, "savez", full)
-    with pytest.raises(OSError, match="no space"):
-        keeper.save(checkpoint)
+    keeper.save(checkpoint)
     assert keeper.path.read_bytes() == before
     assert [p.name for p in tmp_path.iterdir()] == [keeper.path.name]
+
+
+def test_full_disk_costs_the_checkpoint_not_the_run(tmp_path, checkpoint, monkeypatch, capsys):
+    keeper = CheckpointFile(tmp_path / "run.checkpoint", 60.0)
+
+    def full(file, **arrays):
+        raise OSError("no space left")
+
+    monkeypatch.setattr(np, "savez", full)
+    keeper.save(checkpoint)
+    assert "the run goes on" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_empty_file_is_said_and_ignored(tmp_path, capsys):
+    keeper = CheckpointFile(tmp_path / "run.checkpoint", 60.0)
+    keeper.path.touch()
+    assert keeper.load() is None
+    assert "the run starts anew" in capsys.readouterr().err
+
+
+def test_no_checkpoint_at_an_event_whose_snapshot_is_taken(monkeypatch):
+    """A list that is renewed right there would otherwise leave a second snapshot after a restart."""
+    whole = solved(PLATE, NoKeeper())
+    event = next(s.step for s in whole.snapshots if s.label.startswith("t="))
+    switch, seen = Switch(1), []
+    switch.due = lambda: event in seen
+    original = stepping.advance
+
+    def outdated_first(model, state, pairs, memory, rate, dt, begin, end):
+        if begin not in seen:
+            seen.append(begin)
+            return begin, stepping.OUTDATED
+        return original(model, state, pairs, memory, rate, dt, begin, end)
+
+    monkeypatch.setattr(stepping, "advance", outdated_first)
+    monkeypatch.setattr(stepping, "CHUNK_SECONDS", 0.0)
+    with pytest.raises(Stop):
+        solved(PLATE, switch)
+    again = solved(PLATE, Switch(10**9, switch.kept))
+    assert [s.label for s in again.snapshots] == [s.label for s in whole.snapshots]

@@ -40,6 +40,8 @@ def test_interrupt(tmp_path, to_group):
         ],
         cwd=tmp_path,
         start_new_session=True,
+        # Whatever runs the tests in the background may have told its children to ignore Ctrl-C.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         stderr=subprocess.PIPE,
         text=True,
     )

@@ -18,6 +18,7 @@ sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids 
   sphstudy compare before.nc after.nc tolerance=1e-6    two datasets, cell by cell
   sphstudy measure mode1                           metrics again from stored fields
   sphstudy reference mode1                         stored results become the stored reference
+  sphstudy extrapolate mode1 G2_error --order 1    to zero particle spacing, with uncertainty
   sphstudy status                                  what the results folder holds, run by run
   sphstudy list                                    scenes, methods, solvers, metrics, studies
   sphstudy describe scene plate                    every setting of one of them: value, unit, meaning
@@ -34,6 +35,8 @@ flags
   -m, --multirun   run every combination of the values given
   -f, --force      run again what is already there
   --dry-run        with `study`: run nothing
+  --order P        with `extrapolate`: the order of convergence, observed if it is not given
+  --output FILE    with `extrapolate`: a netCDF file that keeps the result
   -h, --help       this text            --version   the version
 
 A run that is already in the results folder is not run again. Each run leaves one netCDF file in
@@ -85,6 +88,10 @@ def _command(arguments: list[str]) -> int:
         from sphstudy import review
 
         return getattr(review, f"{command}_command")(arguments[1:])
+    if command == "extrapolate":
+        from sphstudy import convergence
+
+        return convergence.extrapolate_command(arguments[1:])
     return _run(arguments)
 
 

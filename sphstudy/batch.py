@@ -27,11 +27,10 @@ from sphstudy.tables import console, print_tables
 
 @dataclass(frozen=True)
 class Planned:
-    """A point, the status that the store has of it, its cost, and its predicted CPU time (s)."""
+    """A point, the status that the store has of it, and its predicted CPU time (s)."""
 
     point: Point
     status: str
-    cost: float
     seconds: float
 
 
@@ -45,7 +44,7 @@ def plan(points: list[Point], store: Store) -> list[Planned]:
         raise ConfigurationError(complaints)
     known = rates(store)
     return [
-        Planned(p, store.status(p.config), cost, known.seconds(p.config, cost))
+        Planned(p, store.status(p.config), known.seconds(p.config, cost))
         for p, (cost, _) in zip(points, prospects, strict=True)
     ]
 
@@ -123,7 +122,7 @@ def sweep(
     planned = plan(points, store)
     store.prepare()
     pending = [p for p in planned if force or p.status not in REUSED]
-    pending.sort(key=lambda p: p.cost, reverse=True)
+    pending.sort(key=lambda p: p.seconds, reverse=True)
     # A single run stays in this process: starting another takes longer than many a run.
     if not launcher and len(pending) <= 1:
         launcher = ["hydra/launcher=basic"]
@@ -133,7 +132,7 @@ def sweep(
     if pending:
         print(_prediction(pending), file=sys.stderr)
         jobs = [[*p.point.overrides, f"results={store.folder}"] for p in pending]
-        costs = [(p.point.config, p.cost) for p in pending]
+        costs = [(p.point.config, p.seconds) for p in pending]
         with _clean_interrupt(), display(costs, store, reused=len(planned) - len(pending)):
             setup_globals()
             ready.launch(jobs, initial_job_idx=0)

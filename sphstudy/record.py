@@ -9,21 +9,21 @@ import xarray as xr
 from sphstudy.config import RunConfig, validate
 from sphstudy.metrics.metric import Metric
 from sphstudy.scenes.problem import Problem
-from sphstudy.solve.stepping import HISTORY, Solution
+from sphstudy.solve.solution import FIELDS, HISTORY, Solution
 
 STATUS = ("missing", "done", "diverged", "failed", "timeout", "interrupted", "running")
 """Outcomes of a point; a record stores the position in this list."""
 
-_FIELDS = (
-    ("x", "m", "position, x"),
-    ("y", "m", "position, y"),
-    ("velocity_x", "m s-1", "velocity, x"),
-    ("velocity_y", "m s-1", "velocity, y"),
-    ("density", "kg m-3", "density"),
-    ("stress_xx", "Pa", "stress, xx"),
-    ("stress_yy", "Pa", "stress, yy"),
-    ("stress_xy", "Pa", "stress, xy"),
-)
+_FIELDS = {
+    "x": ("m", "position, x"),
+    "y": ("m", "position, y"),
+    "velocity_x": ("m s-1", "velocity, x"),
+    "velocity_y": ("m s-1", "velocity, y"),
+    "density": ("kg m-3", "density"),
+    "stress_xx": ("Pa", "stress, xx"),
+    "stress_yy": ("Pa", "stress, yy"),
+    "stress_xy": ("Pa", "stress, xy"),
+}
 
 _HISTORY = {
     "time": ("s", "time since the start of the run"),
@@ -35,7 +35,7 @@ _HISTORY = {
     "momentum_y": ("kg s-1", "momentum per thickness, y"),
     "angular_momentum": ("kg m s-1", "angular momentum per thickness about the origin"),
     "kinetic_energy": ("J m-1", "kinetic energy per thickness"),
-    "strain_energy": ("J m-1", "strain energy per thickness (3.18)"),
+    "strain_energy": ("J m-1", "strain energy per thickness: (3.18), or all of the potential"),
     "largest_speed": ("m s-1", "largest speed of a particle"),
     "smallest_spacing": ("m", "smallest distance between two particles that see each other"),
     "net_internal_force": ("1", "|sum of internal forces| over the sum of their magnitudes"),
@@ -64,25 +64,32 @@ def fields(problem: Problem, solution: Solution) -> xr.Dataset:
         ),
         "snapshot_time": _variable(time, [s.time for s in snapshots], "s", "time of the snapshot"),
         "snapshot_step": _variable(time, [s.step for s in snapshots], "1", "step of the snapshot"),
-        "energy_youngs_modulus": _variable(
-            (), problem.energy_compliance[0], "Pa", "E* of the strain energy (3.18)"
+        "snapshot_strain_energy": _variable(
+            time, [s.strain_energy for s in snapshots], "J m-1", "strain energy per thickness"
         ),
-        "energy_poisson_ratio": _variable(
-            (), problem.energy_compliance[1], "1", "ν* of the strain energy (3.18)"
+        "snapshot_closure_work": _variable(
+            time,
+            [s.closure_work for s in snapshots],
+            "J m-1",
+            "half of forces of bonds cut in this stage times displacements at its end",
         ),
         "time_step": _variable((), solution.time_step, "s", "time step"),
     }
     for name, mask in body.tags.items():
         variables[f"tag_{name}"] = _flags(body.x.size, np.flatnonzero(mask), f"tag: {name}")
-    state = np.array([s.state for s in snapshots]).reshape(len(snapshots), len(_FIELDS), body.x.size)
-    for row, (name, units, long_name) in enumerate(_FIELDS):
-        variables[name] = _variable((time, particle), state[:, row], units, long_name)
+    state = np.array([s.fields for s in snapshots]).reshape(len(snapshots), len(FIELDS), body.x.size)
+    for row, name in enumerate(FIELDS):
+        variables[name] = _variable((time, particle), state[:, row], *_FIELDS[name])
     history = np.array(solution.history).reshape(-1, len(HISTORY))
     for column, name in enumerate(HISTORY):
         units, long_name = _HISTORY[name]
         variables["history_" + name] = _variable("sample", history[:, column], units, long_name)
     for name, steps in solution.stage_steps.items():
         variables[f"steps_{name}"] = _variable((), steps, "1", f"steps of stage {name}")
+    for name, own in solution.variables.items():
+        # Numbers go to tables beside metrics, as what they cost does.
+        group = {} if own.dims else {"group": "cost"}
+        variables[name] = _variable(own.dims, own.values, own.units, own.long_name, **group)
     return xr.Dataset(variables)
 
 

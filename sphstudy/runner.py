@@ -61,9 +61,10 @@ def _solved(config: RunConfig, marker: Marker, keeper: CheckpointFile) -> xr.Dat
             "wall time without compilation",
         ),
         "compile_seconds": Metric(compiling.wall, "s", "wall time spent compiling"),
-        "steps": Metric(solution.steps, "1", "time steps"),
+        "steps": Metric(solution.steps, "1", "time steps, or linear systems solved"),
+        "spacing": Metric(problem.body.mean_spacing, "m", "particle spacing Δ"),
         "particles": Metric(problem.body.x.size, "1", "particles"),
-        "pairs": Metric(solution.pairs, "1", "unordered pairs in the neighbour list, at most"),
+        "pairs": Metric(solution.pairs, "1", "unordered pairs of neighbours, at most"),
         "peak_memory": Metric(_peak_memory(), "byte", "peak memory of the process"),
     }
     run = record.fields(problem, solution)
@@ -72,10 +73,15 @@ def _solved(config: RunConfig, marker: Marker, keeper: CheckpointFile) -> xr.Dat
 
 
 def measured(run: xr.Dataset, config: RunConfig) -> xr.Dataset:
-    """The record with its metrics, measured from its fields; none if the run is not done."""
+    """The record with its metrics, measured from its fields; none if the run is not done.
+
+    What metrics remark is the message of a run that is done.
+    """
     metrics = {}
     if record.STATUS[int(run["status"])] == "done":
         metrics = measure(run, config, scene_module(config.scene.kind).METRICS)
+        remarks = [metric.remark for metric in metrics.values() if metric.remark]
+        run.attrs["message"] = "; ".join(dict.fromkeys(remarks))
     return record.with_metrics(run, metrics, identity.metrics_version(config))
 
 

@@ -34,7 +34,11 @@ def smallest_effects():
     """Of each metric: the smallest effect of an open choice that is not rounding (of what the control
     does, or of the metric's largest value), found without the product's own code for it.
     """
-    points = {tuple(sorted(map(str, c.flat.items()))): c for c in cells(reference.load("choices"))}
+    stored = cells(reference.load("choices"))
+    # Settings that came after the reference was stored have had one value ever since.
+    known = {key for cell in stored for key in cell.flat}
+    name = lambda flat: tuple(sorted(str(item) for item in flat.items() if item[0] in known))  # noqa: E731
+    points = {name(cell.flat): cell for cell in stored}
     metrics, found = reference.metrics(reference.load("choices")), {}
     size = {
         m: max(abs(c.values[m]) for c in points.values() if c.values[m] == c.values[m]) for m in metrics
@@ -42,7 +46,7 @@ def smallest_effects():
     with session() as hydra:
         blocks = StudyPoints(hydra, "choices", []).blocks
     for block in blocks.values():
-        base, *others = (points[tuple(sorted(map(str, p.config.flat().items())))] for p in block)
+        base, *others = (points[name(p.config.flat())] for p in block)
         (control,) = [o for o in others if o.flat[CONTROL] != base.flat[CONTROL]]
         for metric in metrics:
             noise = abs(control.values[metric] - base.values[metric])

@@ -55,6 +55,33 @@ def stress(
     raise ValueError(f"mode {mode}: must be 1 or 2")
 
 
+def displacement_gradient(
+    mode: int,
+    x: np.ndarray,
+    y: np.ndarray,
+    stress_intensity: float,
+    youngs_modulus: float,
+    poisson_ratio: float,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """∂u_x/∂x, ∂u_x/∂y, ∂u_y/∂x, ∂u_y/∂y at x, y (m); mode 1 or 2. Raises ValueError otherwise.
+
+    Strain by Hooke's law. Rotation: E ω is the harmonic conjugate of σ_xx + σ_yy, for in Muskhelishvili's
+    φ(z) the latter is 4 Re φ' and the former, in plane stress, 4 Im φ'; in mode I 4φ' = 2K/√(2πz), in
+    mode II -2iK/√(2πz).
+    """
+    xx, yy, xy = stress(mode, x, y, stress_intensity)
+    half = 0.5 * np.arctan2(y, x)
+    scale = -2.0 * stress_intensity / np.sqrt(2.0 * np.pi * np.hypot(x, y))
+    rotation = scale * (np.sin(half) if mode == 1 else np.cos(half)) / youngs_modulus
+    shear = (1.0 + poisson_ratio) * xy / youngs_modulus
+    return (
+        (xx - poisson_ratio * yy) / youngs_modulus,
+        shear - rotation,
+        shear + rotation,
+        (yy - poisson_ratio * xx) / youngs_modulus,
+    )
+
+
 def energy_release_rate(stress_intensity: float, youngs_modulus: float) -> float:
     """G = K²/E [J/m²] in plane stress."""
     return stress_intensity**2 / youngs_modulus

@@ -6,18 +6,19 @@ from typing import Literal
 
 import numpy as np
 
+from sphstudy.methods import lattice
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Problem
+from sphstudy.solve.rate_system import RateSystem
 from sphstudy.sph import kernel
 from sphstudy.sph.artificial_stress import ArtificialStress
 from sphstudy.sph.crack import Crack
 from sphstudy.sph.updated_lagrangian import Model
 from sphstudy.sph.viscosity import Viscosity
 
-FEWEST_NEIGHBOURS = 8
-"""On a square lattice, inside the support: fewer leave the velocity gradient without its diagonals."""
-
 SOLVERS = ("explicit",)
+
+INTEGRATORS = ("heun",)
 
 BYTES_PER_PARTICLE = 700
 """State, predicted state, two derivatives, pair data, sums, reference positions."""
@@ -57,35 +58,19 @@ class Parameters:
     skin: float = number("skin of the neighbour list, in particle spacings", gt=0, le=1)
 
 
-def _support(config) -> float:
-    """Radius of the kernel's support, in particle spacings."""
-    return config.h * kernel.KERNELS[config.method.kernel].support
-
-
 def lattice_neighbours(config) -> int:
     """Neighbours of a particle of a square lattice that lie strictly inside its support."""
-    radius = _support(config)
-    reach = np.arange(-math.ceil(radius), math.ceil(radius) + 1)
-    distance_squared = reach[:, None] ** 2 + reach[None, :] ** 2
-    return int(np.count_nonzero(distance_squared < radius**2 * (1.0 - 1e-12))) - 1
+    return lattice.neighbours(config)
 
 
 def check(config) -> Iterator[str]:
     """Complaints about h and n."""
-    found = lattice_neighbours(config)
-    if found < FEWEST_NEIGHBOURS:
-        least = math.sqrt(2) * config.h / _support(config)
-        yield (
-            f"h={config.h:g}: too few neighbours for this method ({found}, at least "
-            f"{FEWEST_NEIGHBOURS} needed: h > {least:.4g})"
-        )
-    if _support(config) >= config.n:
-        yield f"h={config.h:g}: the support is wider than the body's {config.n} rows"
+    yield from lattice.check(config)
 
 
 def memory(particles: int, config) -> float:
     """Estimated peak memory of a run (bytes)."""
-    pairs = 0.5 * particles * math.pi * (_support(config) + 0.5) ** 2
+    pairs = 0.5 * particles * math.pi * (lattice.support(config) + 0.5) ** 2
     return particles * BYTES_PER_PARTICLE + pairs * BYTES_PER_PAIR
 
 
@@ -114,6 +99,11 @@ def _crack(config, problem: Problem, nodes: int) -> Crack | None:
         sign * method.visibility_tolerance,
         frozen,
     )
+
+
+def system(problem: Problem, config, dt: float, integrator: str) -> RateSystem:
+    """The problem as explicit stepping takes it."""
+    return RateSystem(problem, dt, lambda nodes: model(problem, config, nodes))
 
 
 def model(problem: Problem, config, crack_nodes: int) -> Model:

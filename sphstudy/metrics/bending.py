@@ -63,7 +63,7 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     material = Material(scene.E, scene.nu, scene.rho, scene.plane)
     plate = bent_plate(length, height, material, deflection)
     error_2d = u_y - make_interp_spline(plate.x, plate.u_y)(x0)
-    energy = float(run["history_strain_energy"].values[-1])
+    energy = float(state["snapshot_strain_energy"])
     degrees = "degree"
     return {
         "end_angle": Metric(np.degrees(angle), degrees, "angle of the driven end"),

@@ -7,7 +7,12 @@ from sphstudy.metrics.metric import Metric
 
 
 def measure(run: xr.Dataset, config) -> dict[str, Metric]:
-    """Ratio of √Σv² at the end of settling to its value at the end of loading, and steps to reach it."""
+    """Ratio of √Σv² at the end of settling to its value at the end of loading, and steps to reach it.
+
+    Nothing of a run that knew no time: nothing moved.
+    """
+    if float(run["time_step"]) == 0.0:
+        return {}
     loaded = int(run["steps_load"])
     settled = loaded + int(run["steps_settle"])
     step, speed = run["history_step"].values, run["history_system_speed"].values

@@ -50,15 +50,6 @@ def propagated_release_rate(u0: float, u1: float, u2: float, spacing: float) -> 
     return -(-1.5 * u0 + 2.0 * u1 - 0.5 * u2) / spacing
 
 
-def strain_energy(run: xr.Dataset, stage: str) -> float:
-    """U = ½ Σ σ:ε m/ρ [J/m] (3.18 to 3.21) at the end of a stage, in plane stress."""
-    state = snapshot(run, stage)
-    e, nu = float(run["energy_youngs_modulus"]), float(run["energy_poisson_ratio"])
-    xx, yy, xy = (state[f"stress_{c}"].values for c in ("xx", "yy", "xy"))
-    density = (xx**2 + yy**2 - 2.0 * nu * xx * yy + 2.0 * (1.0 + nu) * xy**2) / (2.0 * e)
-    return float(np.sum(density * run["mass"].values / state["density"].values))
-
-
 def _projection(run: xr.Dataset, config, chosen: np.ndarray) -> tuple[StressIntensity, ...]:
     """K_I and K_II from the chosen particles, in the settled state with crack length a."""
     state, scene = snapshot(run, "settle"), config.scene
@@ -98,13 +89,22 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
         "K_II_error": Metric((k2.value - k_exact[1]) / scene.K, "1", "error of K_II over K"),
     }
     stages = ("settle", *(f"extend{k}" for k in range(1, scene.extensions + 1)))
-    energies = [strain_energy(run, stage) for stage in stages]
+    states = [snapshot(run, stage) for stage in stages]
+    energies = [float(state["snapshot_strain_energy"]) for state in states]
     for k, energy in enumerate(energies):
         length = "a" if k == 0 else f"a + {k}Δx"
         metrics[f"U{k}"] = Metric(energy, "J m-1", f"strain energy with crack length {length}")
     if len(energies) == 3:
         u0, u1, u2 = energies
-        g1 = propagated_release_rate(u0, u1, u2, float(run["spacing_x"]))
+        spacing = float(run["spacing_x"])
+        g1 = propagated_release_rate(u0, u1, u2, spacing)
         metrics["G1"] = Metric(g1, g_units, "energy release rate by propagation (3.24)")
         metrics["G1_error"] = Metric(g1 / exact - 1.0, "1", "relative error of G1")
+        first, second = (float(state["snapshot_closure_work"]) for state in states[1:])
+        if np.isfinite(first + second):
+            closure = propagated_release_rate(0.0, -first, -first - second, spacing)
+            metrics["G_closure"] = Metric(
+                closure, g_units, "energy release rate by virtual crack closure"
+            )
+            metrics["G_closure_error"] = Metric(closure / exact - 1.0, "1", "relative error of G_closure")
     return metrics

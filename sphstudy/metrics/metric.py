@@ -7,11 +7,12 @@ import xarray as xr
 
 
 class Metric(NamedTuple):
-    """A number, its UDUNITS unit ("1": pure number) and what it is."""
+    """A number, its UDUNITS unit ("1": pure number) and what it is; `remark`: why it is not there."""
 
     value: float
     units: str
     long_name: str
+    remark: str = ""
 
 
 def measure(run: xr.Dataset, config, modules: tuple[str, ...]) -> dict[str, Metric]:

@@ -66,6 +66,8 @@ def _loaded_state(run: xr.Dataset) -> xr.Dataset | None:
     if "settle" in labels:
         return snapshot(run, "settle")
     times = run["snapshot_time"].values
+    if not run.sizes.get("sample"):
+        return None
     history, u_y = run["history_time"].values, run["history_u_y"].values
     highest = float(u_y.max())
     up = [

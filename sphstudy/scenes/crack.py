@@ -15,13 +15,16 @@ from sphstudy.scenes.problem import Body, Problem, Stage, lattice
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
 
-METRICS = ("fracture", "norms", "symmetry", "equilibrium", "balance")
+METRICS = ("fracture", "stress_intensity", "norms", "symmetry", "equilibrium", "balance")
 HEADLINE = (
     "G1_error",
     "G2_error",
     "G2_error_free",
     "K_I_error",
     "K_II_error",
+    "K_I_integral_error",
+    "K_II_integral_error",
+    "J_error",
     "u_x_rms",
     "u_y_rms",
     "stress_yy_parity_defect_ahead",

@@ -1,9 +1,11 @@
 """What an explicit run needs to go on as if it had never stopped, as named arrays."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any, Protocol
 
 import numpy as np
+
+_MEMORY = "memory_"
 
 
 @dataclass
@@ -11,9 +13,9 @@ class Checkpoint:
     """A run between two steps. Restarted from it, a run is the uninterrupted one to the last bit.
 
     stage: index of the stage in progress; begun: step at which it began; step: steps taken in all.
-    loading_speed: √Σv² at the end of loading (m/s), NaN before. state [8, N]. list_x, list_y [N] (m) and
-    list_skin (m): what the neighbour list in force was built from. history [M, columns]. stage_steps: of
-    the stages done. snapshot_labels, _steps [K], _states [K, 8, N]. pairs: most pairs so far.
+    loading_speed: √Σv² at the end of loading (m/s), NaN before. state [rows, N] and memory: see
+    solve.system. history [M, columns]. stage_steps: of the stages done. snapshot_…: those taken [K],
+    fields [K, 8, N]. pairs: most pairs so far.
     """
 
     stage: int
@@ -21,26 +23,34 @@ class Checkpoint:
     step: int
     loading_speed: float
     state: np.ndarray
-    list_x: np.ndarray
-    list_y: np.ndarray
-    list_skin: float
     history: np.ndarray
     stage_steps: np.ndarray
     snapshot_labels: np.ndarray
     snapshot_steps: np.ndarray
-    snapshot_states: np.ndarray
+    snapshot_fields: np.ndarray
+    snapshot_energies: np.ndarray
+    snapshot_closures: np.ndarray
     pairs: int
+    memory: dict[str, np.ndarray] = field(default_factory=dict)
 
     def arrays(self) -> dict[str, np.ndarray]:
         """The fields as arrays, numbers as arrays without dimensions."""
-        return {field.name: np.asarray(getattr(self, field.name)) for field in fields(self)}
+        plain = {f.name: np.asarray(getattr(self, f.name)) for f in fields(self) if f.name != "memory"}
+        return plain | {_MEMORY + name: np.asarray(values) for name, values in self.memory.items()}
 
     @classmethod
     def from_arrays(cls, arrays: dict[str, np.ndarray]) -> "Checkpoint":
         """The inverse of `arrays`."""
-        named = ((field.name, arrays[field.name]) for field in fields(cls))
-        values: dict[str, Any] = {name: v.item() if v.ndim == 0 else v for name, v in named}
-        return cls(**values)
+        names = [f.name for f in fields(cls) if f.name != "memory"]
+        values: dict[str, Any] = {
+            name: arrays[name].item() if arrays[name].ndim == 0 else arrays[name] for name in names
+        }
+        memory = {
+            name.removeprefix(_MEMORY): array
+            for name, array in arrays.items()
+            if name.startswith(_MEMORY)
+        }
+        return cls(**values, memory=memory)
 
 
 class Keeper(Protocol):

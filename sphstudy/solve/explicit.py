@@ -2,11 +2,17 @@
 
 import math
 from collections.abc import Callable, Iterator
+from functools import lru_cache
+from typing import Literal
 
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Problem, Stage
 from sphstudy.solve.checkpoint import Keeper, NoKeeper
-from sphstudy.solve.stepping import Run, Solution
+from sphstudy.solve.solution import Solution
+from sphstudy.solve.stepping import Run
+
+SECONDS_PER_COST = 4e-8
+"""CPU time of a step per pair, on one Zen 4 core, where no run tells."""
 
 
 @parameters
@@ -14,7 +20,14 @@ class Parameters:
     """Time stepping and its protocol of loading and settling."""
 
     name: str = described("name of the solver")
+    integrator: Literal["auto", "heun", "verlet"] = described(
+        "Heun's method (thesis 2.6), velocity Verlet (total Lagrangian only), or the method's own"
+    )
+    time_step: Literal["courant", "frequency"] = described(
+        "Δt from the rule (2.27), or from the highest frequency (power iteration; total Lagrangian only)"
+    )
     courant: float = number("C of the time step Δt = C Δ/c0 (2.27)", gt=0)
+    safety: float = number("Δt over 2/ω_max, its limit without damping", gt=0, lt=1)
     damping: float = number("velocity damping γ (2.23)", "1/s", ge=0)
     smoothing: float = number("smearing of the velocity η (2.26)", ge=0, le=1)
     load_steps: int = count("loading steps N (3.4)", ge=1)
@@ -45,14 +58,37 @@ def plan(stages: tuple[Stage, ...], parameters: Parameters, dt: float) -> list[i
     return steps
 
 
-def time_step(problem: Problem, parameters: Parameters, wave_speed: float) -> float:
-    """Δt = C Δ/c0 (2.27) [s]."""
-    return parameters.courant * problem.step_spacing / wave_speed
+def time_step(problem: Problem, config, method) -> float:
+    """Δt = C Δ/c0 (2.27), or the chosen share of 2/ω_max [s]."""
+    if config.solve.time_step == "frequency":
+        return config.solve.safety * 2.0 / _highest_frequency(config, method)
+    return config.solve.courant * problem.step_spacing / method.wave_speed(config, problem)
+
+
+@lru_cache(maxsize=64)
+def _highest_frequency(config, method) -> float:
+    return method.highest_frequency(config)
+
+
+def integrator(config, method) -> str:
+    """The integrator of a run: the method's own, its first, unless another is asked for."""
+    asked = config.solve.integrator
+    return method.INTEGRATORS[0] if asked == "auto" else asked
 
 
 def check(problem: Problem, config, method) -> Iterator[str]:
-    """Complaints that need the problem: times asked for that the run does not reach."""
-    dt = time_step(problem, config.solve, method.wave_speed(config, problem))
+    """Complaints: what the method does not offer, and times asked for that the run does not reach."""
+    solve, name = config.solve, config.method.name
+    if integrator(config, method) not in method.INTEGRATORS:
+        offered = ", ".join(method.INTEGRATORS)
+        yield f"solve.integrator={solve.integrator}: method {name} takes {offered}"
+        return
+    if solve.time_step == "frequency" and not hasattr(method, "highest_frequency"):
+        yield f"solve.time_step=frequency: method {name} has no stiffness to find ω_max of; take courant"
+        return
+    if solve.smoothing and not hasattr(config.method, "xsph"):
+        yield f"solve.smoothing={solve.smoothing:g}: method {name} has no smoothed velocity; take 0"
+    dt = time_step(problem, config, method)
     end = dt * predicted_steps(problem, config, method)
     for wanted in config.record.times:
         if not 0.0 <= wanted <= end:
@@ -61,8 +97,13 @@ def check(problem: Problem, config, method) -> Iterator[str]:
 
 def predicted_steps(problem: Problem, config, method) -> int:
     """Steps of a run that is not stopped early."""
-    dt = time_step(problem, config.solve, method.wave_speed(config, problem))
+    dt = time_step(problem, config, method)
     return sum(plan(problem.stages, config.solve, dt))
+
+
+def cost(particles: int, neighbours: float, steps: float) -> float:
+    """What a run's CPU time goes with: evaluations of pairs."""
+    return steps * particles * neighbours / 2.0
 
 
 def run(
@@ -76,6 +117,7 @@ def run(
 
     Goes on from the keeper's checkpoint, if it has one, and hands it a new one whenever that is due.
     """
-    dt = time_step(problem, config.solve, method.wave_speed(config, problem))
+    dt = time_step(problem, config, method)
     steps = plan(problem.stages, config.solve, dt)
-    return Run(problem, config, method, dt, steps, on_progress, keeper or NoKeeper()).solve()
+    system = method.system(problem, config, dt, integrator(config, method))
+    return Run(problem, config, system, dt, steps, on_progress, keeper or NoKeeper()).solve()

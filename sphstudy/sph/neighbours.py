@@ -93,7 +93,7 @@ def _grown(array):
 
 
 @compiled_exactly
-def _close_pairs(x, y, reach):
+def close_pairs(x, y, reach):
     """All pairs i < j closer than `reach`, ordered by i: two int32 arrays."""
     count = x.size
     columns, rows, begin, order, cell = _cells(x, y, reach)
@@ -139,7 +139,7 @@ def _judge(first, second, x, y, margin, crack):
 
 
 @compiled_exactly
-def _sorted_by_offset(first, second, count):
+def sorted_by_offset(first, second, count):
     """The pairs ordered by (block of i, j - i, i): stable counting sort within each block."""
     total = first.size
     ordered_first, ordered_second = np.empty_like(first), np.empty_like(second)
@@ -213,7 +213,7 @@ def build(x: np.ndarray, y: np.ndarray, support: float, skin: float, crack: Crac
     Particles at positions that are not finite get no neighbours. Call `look` before the list is used.
     """
     reach = support + skin
-    first, second = _close_pairs(x, y, reach)
+    first, second = close_pairs(x, y, reach)
     none = np.empty(0, np.int32)
     watched_pairs = (none, none, none, none)
     if crack is not None:
@@ -221,7 +221,7 @@ def build(x: np.ndarray, y: np.ndarray, support: float, skin: float, crack: Crac
         lasting, watched, low, high = _judge(first, second, x, y, skin, crack)
         watched_pairs = (first[watched], second[watched], low[watched], high[watched])
         first, second = first[lasting], second[lasting]
-    first, second = _sorted_by_offset(first, second, x.size)
+    first, second = sorted_by_offset(first, second, x.size)
     start, offset, length, single = _runs(x, y, reach, first, second)
     return Neighbours(
         start.copy(),

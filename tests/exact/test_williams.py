@@ -67,6 +67,18 @@ def test_opening_of_the_faces_is_that_of_the_energy_release_rate():
     assert work == pytest.approx(williams.energy_release_rate(K, E), rel=2e-3)
 
 
+@pytest.mark.parametrize("mode", [1, 2])
+def test_displacement_gradient_is_that_of_the_displacement(mode):
+    x, y = POINTS.T
+    along_x, along_y = gradient(lambda x, y: williams.displacement(mode, x, y, K, E, NU), x, y)
+    exact = williams.displacement_gradient(mode, x, y, K, E, NU)
+    scale = K / (E * np.sqrt(2 * np.pi * 0.03))
+    differences = (along_x[0], along_y[0], along_x[1], along_y[1])
+    np.testing.assert_allclose(exact, differences, rtol=0, atol=1e-8 * scale)
+
+
 def test_there_are_two_modes():
     with pytest.raises(ValueError, match="must be 1 or 2"):
         williams.displacement(3, 1.0, 0.0, K, E, NU)
+    with pytest.raises(ValueError, match="must be 1 or 2"):
+        williams.displacement_gradient(0, 1.0, 0.0, K, E, NU)

@@ -15,7 +15,7 @@ from sphstudy.metrics.bending import column_angle
 E, NU, K = 6e6, 0.3, 35.8e3
 
 
-def crack_record(mode, factor=1.0, energies=(0.0, 0.0, 0.0)):
+def crack_record(mode, factor=1.0, energies=(0.0, 0.0, 0.0), closures=(np.nan,) * 4):
     """A record whose displacements and stresses are `factor` times the exact field."""
     with session() as hydra:
         config = hydra.points([f"scene=mode{mode}", "n=20"], sweep=False)[0][0].config
@@ -26,17 +26,13 @@ def crack_record(mode, factor=1.0, energies=(0.0, 0.0, 0.0)):
     fields = {"x": body.x + u_x, "y": body.y + u_y}
     fields |= dict(zip(("stress_xx", "stress_yy", "stress_xy"), stresses, strict=True))
     data = {name: (("snapshot", "particle"), np.tile(v, (4, 1))) for name, v in fields.items()}
-    # Uniaxial stress in the extended states, chosen to hold exactly the energies asked for.
-    for k, energy in enumerate(energies):
-        if energy:
-            for name in ("stress_xx", "stress_yy", "stress_xy"):
-                data[name][1][k + 1] = 0.0
-            data["stress_xx"][1][k + 1] = np.sqrt(2 * E * energy / (count * body.spacing_x**2))
+    data["snapshot_strain_energy"] = ("snapshot", [0.0, *energies])
+    data["snapshot_closure_work"] = ("snapshot", list(closures))
     data["density"] = (("snapshot", "particle"), np.full((4, count), 7750.0))
     data["snapshot_label"] = ("snapshot", labels)
     data["mass"] = ("particle", body.mass)
     data["reference_x"], data["reference_y"] = ("particle", body.x), ("particle", body.y)
-    data |= {"spacing_x": body.spacing_x, "energy_youngs_modulus": E, "energy_poisson_ratio": NU}
+    data |= {"spacing_x": body.spacing_x}
     data |= {f"tag_{name}": ("particle", mask.astype(np.int8)) for name, mask in body.tags.items()}
     return xr.Dataset(data, attrs={"configuration": json.dumps(config.as_dict())}), config
 
@@ -57,6 +53,17 @@ def test_propagation_reads_the_energies_of_the_three_states():
     found = {name: m.value for name, m in fracture.measure(run, config).items()}
     assert [found[f"U{k}"] for k in range(3)] == pytest.approx([5.0, 4.7, 4.2])
     assert found["G1"] == pytest.approx(-(-1.5 * 5.0 + 2 * 4.7 - 0.5 * 4.2) / 0.01)
+
+
+def test_closure_extrapolates_the_work_of_two_extensions_as_propagation_does():
+    run, config = crack_record(1, energies=(5.0, 4.7, 4.2), closures=(np.nan, np.nan, 0.3, 0.5))
+    found = {name: m.value for name, m in fracture.measure(run, config).items()}
+    assert found["G_closure"] == pytest.approx(found["G1"], rel=1e-12)
+
+
+def test_without_forces_of_cut_bonds_there_is_no_closure_estimate():
+    run, config = crack_record(1)
+    assert "G_closure" not in fracture.measure(run, config)
 
 
 def test_propagation_is_exact_for_quadratic_energies():

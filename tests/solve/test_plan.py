@@ -14,7 +14,7 @@ def planned(*overrides):
         config = hydra.points(list(overrides), sweep=False)[0][0].config
     problem = scene_module(config.scene.kind).build(config)
     method = method_module(config.method.kind)
-    dt = explicit.time_step(problem, config.solve, method.wave_speed(config, problem))
+    dt = explicit.time_step(problem, config, method)
     return explicit.plan(problem.stages, config.solve, dt), dt
 
 

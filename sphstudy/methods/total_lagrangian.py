@@ -1,0 +1,117 @@
+"""Total Lagrangian SPH: variational, corrected, without hourglass modes (sph.total_lagrangian)."""
+
+import math
+from collections.abc import Iterator
+from typing import Literal
+
+from sphstudy.config import scene_module
+from sphstudy.methods import lattice
+from sphstudy.parameters import described, number, parameters
+from sphstudy.scenes.problem import Problem
+from sphstudy.solve.potential_system import PotentialSystem
+from sphstudy.solve.potential_system import highest_frequency as _highest_frequency
+from sphstudy.sph import constitutive, kernel, total_lagrangian
+from sphstudy.sph.crack import Crack
+from sphstudy.sph.total_lagrangian import Model
+from sphstudy.sph.viscosity import Viscosity
+
+SOLVERS = ("explicit", "equilibrium", "modes")
+
+INTEGRATORS = ("verlet", "heun")
+
+BYTES_PER_PARTICLE = 500
+"""State, buffers, reference configuration, fields."""
+
+BYTES_PER_PAIR = 150
+"""Bonds, and the pairs one by one while totals are taken."""
+
+FACTOR_ENTRIES = 75.0
+"""Of L and U per particle and per root of their number, times the square of the support in spacings over
+2.6²: measured on squares of 60² to 240² particles.
+"""
+
+BYTES_PER_ENTRY = 30
+"""Of the factors: value and index, and the work space of the factorisation."""
+
+
+@parameters
+class Parameters:
+    """Every choice of the total Lagrangian method."""
+
+    name: str = described("name of the method")
+    kind: str = described("module that builds it")
+    kernel: Literal["cubic", "wendland", "quintic"] = described(
+        "cubic spline (2.7) and Wendland C2, support 2h, or quintic spline, support 3h"
+    )
+    law: Literal["linear", "svk", "neohookean"] = described(
+        "linear Hooke, as linear references have it; St Venant-Kirchhoff; compressible neo-Hookean"
+    )
+    hourglass: float = number("ζ of the hourglass energy; 0 leaves zero-energy modes", ge=0)
+    viscosity_linear: float = number("α of the artificial viscosity (2.21)", ge=0)
+    viscosity_quadratic: float = number("β of the artificial viscosity (2.21)", ge=0)
+    visibility: Literal["inclusive", "exclusive"] = described(
+        "does a pair that passes exactly through a crack node see each other (exclusive) or not",
+    )
+    visibility_tolerance: float = number("widening of the visibility test", gt=0, lt=1e-2)
+
+
+def lattice_neighbours(config) -> int:
+    """Neighbours of a particle of a square lattice that lie strictly inside its support."""
+    return lattice.neighbours(config)
+
+
+def check(config) -> Iterator[str]:
+    """Complaints about h and n."""
+    yield from lattice.check(config)
+
+
+def memory(particles: int, config) -> float:
+    """Estimated peak memory of a run (bytes)."""
+    support = lattice.support(config)
+    pairs = 0.5 * particles * math.pi * support**2
+    needed = particles * BYTES_PER_PARTICLE + pairs * BYTES_PER_PAIR
+    if config.solve.name != "explicit":
+        needed += BYTES_PER_ENTRY * FACTOR_ENTRIES * (support / 2.6) ** 2 * particles**1.5
+    return needed
+
+
+def wave_speed(config, problem: Problem) -> float:
+    """c0 = √(K/ρ0) of the time step rule (2.27) [m/s]."""
+    return problem.body.material.wave_speed
+
+
+def highest_frequency(config) -> float:
+    """ω_max [rad/s] of the problem before any crack is extended: cutting bonds lowers it."""
+    problem = scene_module(config.scene.kind).build(config)
+    return _highest_frequency(model(problem, config, problem.stages[0].crack_nodes))
+
+
+def system(problem: Problem, config, dt: float, integrator: str) -> PotentialSystem:
+    """The problem as explicit stepping takes it."""
+    return PotentialSystem(problem, dt, lambda nodes: model(problem, config, nodes), integrator)
+
+
+def model(problem: Problem, config, crack_nodes: int) -> Model:
+    """The energy of the problem with the first `crack_nodes` nodes of its crack open."""
+    method, body = config.method, problem.body
+    crack = None
+    if crack_nodes:
+        sign = 1.0 if method.visibility == "inclusive" else -1.0
+        nodes = problem.crack_first[:crack_nodes], problem.crack_second[:crack_nodes]
+        crack = Crack(*nodes, sign * method.visibility_tolerance)
+    viscous = method.viscosity_linear > 0.0 or method.viscosity_quadratic > 0.0
+    return total_lagrangian.model(
+        body.x,
+        body.y,
+        body.mass,
+        body.material.density,
+        kernel.KERNELS[method.kernel],
+        config.h * body.mean_spacing,
+        constitutive.law(method.law, body.material),
+        problem.constraints,
+        hourglass=method.hourglass,
+        crack=crack,
+        viscous=Viscosity(method.viscosity_linear, method.viscosity_quadratic) if viscous else None,
+        damping=getattr(config.solve, "damping", 0.0),
+        wave_speed=body.material.wave_speed,
+    )

@@ -1,0 +1,113 @@
+"""K_I, K_II and J of a run by integrals over annuli about the crack tip, whatever the method.
+
+The displacement gradient follows from recorded positions by a corrected gradient in the reference
+configuration, with the crack's bonds cut; stresses are those recorded.
+"""
+
+import numpy as np
+import xarray as xr
+
+from sphstudy.exact import williams
+from sphstudy.metrics.interaction_integral import Annulus, fits, j_integral, stress_intensities
+from sphstudy.metrics.metric import Metric, snapshot
+from sphstudy.scenes.crack import build
+from sphstudy.sph import bonds, constitutive, kernel, total_lagrangian
+from sphstudy.sph.crack import Crack
+
+WHOLE = (0.1, 0.4)
+"""Radii of the annulus in sides of the square (20 to 80 mm): clear of the tip and of the frame in all
+cells of the thesis's grids."""
+
+PARTS = ((0.1, 0.25), (0.175, 0.325), (0.25, 0.4))
+"""Narrower annuli, inside the first: what they differ by is the contour dependence."""
+
+
+def measure(run: xr.Dataset, config) -> dict[str, Metric]:
+    """Metrics of the settled state with crack length a; NaN, with a remark, where the annulus does not
+    fit.
+    """
+    scene, side = config.scene, config.scene.L
+    exact = {"K_I": scene.K if scene.mode == 1 else 0.0, "K_II": scene.K if scene.mode == 2 else 0.0}
+    release = williams.energy_release_rate(scene.K, scene.E)
+    whole, *parts = (Annulus(inner * side, outer * side) for inner, outer in (WHOLE, *PARTS))
+    shape = kernel.KERNELS[config.method.kernel]
+    edge = 0.5 * side - scene.frame_layers * float(run["spacing_x"])
+    remark = fits(whole, shape.support * config.h * float(run["spacing_x"]), edge)
+    values = np.full((1 + len(parts), 3), np.nan)
+    if not remark:
+        values = _integrals(run, config, (whole, *parts))
+    k_1, k_2, j = values[0]
+    spread = np.ptp(values[1:], axis=0) / (scene.K, scene.K, release)
+    annulus = "by integration over an annulus"
+    found = {
+        "K_I_integral": Metric(k_1, "Pa m0.5", f"K_I {annulus}", remark),
+        "K_II_integral": Metric(k_2, "Pa m0.5", f"K_II {annulus}"),
+        "J": Metric(j, "J m-2", f"J {annulus}"),
+        "K_I_integral_error": Metric(
+            (k_1 - exact["K_I"]) / scene.K, "1", f"error of K_I {annulus} over K"
+        ),
+        "K_II_integral_error": Metric(
+            (k_2 - exact["K_II"]) / scene.K, "1", f"error of K_II {annulus} over K"
+        ),
+        "J_error": Metric(j / release - 1.0, "1", "relative error of J"),
+    }
+    for name, difference in zip(("K_I", "K_II", "J"), spread, strict=True):
+        found[f"{name}_contour_spread"] = Metric(
+            difference, "1", f"largest difference of {name} between three annuli, over the exact value"
+        )
+    return found
+
+
+def _integrals(run: xr.Dataset, config, annuli: tuple[Annulus, ...]) -> np.ndarray:
+    """K_I, K_II (Pa √m) and J (J/m²) of each annulus [annuli, 3]."""
+    scene = config.scene
+    problem = build(config)
+    body, state = problem.body, snapshot(run, "settle")
+    gradient = _deformation_gradient(problem, config, state["x"].values, state["y"].values)
+    stress, density = _stress_and_energy(body.material, config, state, gradient)
+    displacement_gradient = gradient - np.array([1.0, 0.0, 0.0, 1.0])[:, None]
+    area = body.mass / body.material.density
+    values = []
+    for annulus in annuli:
+        place = (body.x, body.y, area, stress, displacement_gradient)
+        k = stress_intensities(*place, annulus, 0.0, scene.E, scene.nu)
+        values.append((*k, j_integral(*place, density, annulus, 0.0)))
+    return np.array(values)
+
+
+def _deformation_gradient(problem, config, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """F [4, N], corrected, of positions x, y [N] (m)."""
+    body = problem.body
+    nodes = next(stage.crack_nodes for stage in problem.stages if stage.name == "settle")
+    crack = Crack(problem.crack_first[:nodes], problem.crack_second[:nodes])
+    length = config.h * body.mean_spacing
+    area = body.mass / body.material.density
+    shape = kernel.KERNELS[config.method.kernel]
+    pairs = bonds.build(body.x, body.y, area, shape, length, crack)
+    found = np.zeros((4, x.size))
+    correction = total_lagrangian.correction(pairs, body.x, body.y)
+    total_lagrangian.corrected_gradient(pairs, correction, x, y, found)
+    return found
+
+
+def _stress_and_energy(
+    material, config, state: xr.Dataset, gradient: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """First Piola–Kirchhoff stress [4, N] (Pa) and energy per reference volume [N] (J/m³).
+
+    Small strain under a linear law; otherwise P = J σ F⁻ᵀ. A method without a law of its own has the
+    energy of Hooke's law from its stress.
+    """
+    xx, yy, xy = (state[f"stress_{c}"].values for c in ("xx", "yy", "xy"))
+    e, nu = material.compliance
+    density = (xx**2 + yy**2 - 2.0 * nu * xx * yy + 2.0 * (1.0 + nu) * xy**2) / (2.0 * e)
+    name = getattr(config.method, "law", None)
+    if name == "linear":
+        return np.stack((xx, xy, xy, yy)), density
+    f_xx, f_xy, f_yx, f_yy = gradient
+    stress = np.stack(
+        (xx * f_yy - xy * f_xy, xy * f_xx - xx * f_yx, xy * f_yy - yy * f_xy, yy * f_xx - xy * f_yx)
+    )
+    if name is None:
+        return stress, density * (f_xx * f_yy - f_xy * f_yx)
+    return stress, constitutive.energy_densities(constitutive.law(name, material), gradient)

@@ -1,0 +1,143 @@
+"""Static equilibrium of a potential for prescribed displacements: Newton's method with line search."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sparse
+
+from sphstudy.solve.factorisation import Factorisation, NotSolvable
+from sphstudy.sph import stiffness, total_lagrangian
+from sphstudy.sph.total_lagrangian import Model
+
+SUFFICIENT = 1e-4
+"""Share of the decrease that the slope promises which a step must keep (Armijo 1966)."""
+
+HALVINGS = 12
+"""Of a Newton step, before the line search gives up."""
+
+
+@dataclass
+class Effort:
+    """What solutions took: linear systems solved, factor entries at most, largest residual."""
+
+    systems: int = 0
+    entries: int = 0
+    residual: float = 0.0
+
+
+class Newton:
+    """Equilibria of one model.
+
+    A residual is the norm of the forces on free particles over that of the forces on all; equilibrium is
+    one of at most `tolerance`, found in at most `iterations` steps.
+    """
+
+    def __init__(self, model: Model, tolerance: float, iterations: int, effort: Effort):
+        self.model, self.tolerance, self.iterations, self.effort = model, tolerance, iterations, effort
+        count, constraints = model.x.size, model.constraints
+        self._held = np.concatenate((constraints.x_index, count + constraints.y_index))
+        self._target = np.concatenate((constraints.x_target, constraints.y_target))
+        self._free = np.setdiff1d(np.arange(2 * count), self._held)
+        self._reference = np.concatenate((model.x, model.y))
+        self._operators = stiffness.operators(model)
+        self._work = total_lagrangian.workspace(count)
+        self._factors: Factorisation | None = None
+        # The hourglass energy leaves the linear law no mode without energy, and all its moduli are
+        # positive: nothing needs to be judged.
+        self._judged = model.law.objective or model.hourglass is None
+
+    def equilibrium(self, position: np.ndarray, amplitude: float) -> np.ndarray:
+        """Positions [2N] (m) at rest with prescribed freedoms at target · amplitude, from a start.
+
+        Raises NotSolvable, and leaves the start as it was.
+        """
+        force, held = self._force(position), self._held
+        if self.model.law.objective:
+            self._factors = None
+        stiff = self._tangent()
+        drive = np.zeros(position.size)
+        drive[held] = self._reference[held] + amplitude * self._target - position[held]
+        step = self._factors_of(stiff).solve((force - stiff @ drive)[self._free])
+        self.effort.systems += 1
+        # Prescribed freedoms go all the way in the first step, the others with them as the tangent says.
+        position = position + drive
+        position[self._free] += step
+        force = self._force(position)
+        self._refuse_inverted()
+        for _ in range(self.iterations):
+            residual = self._residual(force)
+            if residual <= self.tolerance:
+                self.effort.residual = max(self.effort.residual, residual)
+                self._refuse_unstable()
+                return position
+            if self.model.law.objective:
+                self._factors = None
+            step = self._factors_of(self._tangent()).solve(force[self._free])
+            self.effort.systems += 1
+            position, force = self._searched(position, force, step)
+        raise NotSolvable(
+            f"no equilibrium in {self.iterations} iterations (residual {self._residual(force):.1e})"
+        )
+
+    def forget(self) -> None:
+        """Drops the factors: the next start is not where they were made."""
+        self._factors = None
+
+    def _force(self, position: np.ndarray) -> np.ndarray:
+        force = np.zeros((2, self.model.x.size))
+        total_lagrangian.force(self.model, *position.reshape(2, -1), self._work, force)
+        return force.ravel()
+
+    def _energy(self, position: np.ndarray) -> float:
+        return sum(total_lagrangian.energies(self.model, *position.reshape(2, -1), self._work))
+
+    def _residual(self, force: np.ndarray) -> float:
+        total = float(np.linalg.norm(force))
+        return float(np.linalg.norm(force[self._free])) / total if total else 0.0
+
+    def _tangent(self) -> sparse.csc_array:
+        """The tangent at the deformation gradients that the last force has left."""
+        if self._factors is None or self.model.law.objective:
+            self._stiffness = stiffness.tangent(self.model, self._operators, self._work.gradient)
+        return self._stiffness
+
+    def _factors_of(self, stiff: sparse.csc_array) -> Factorisation:
+        if self._factors is None:
+            self._factors = Factorisation(stiff[self._free][:, self._free], self._judged)
+            self.effort.entries = max(self.effort.entries, self._factors.entries)
+        return self._factors
+
+    def _searched(
+        self, position: np.ndarray, force: np.ndarray, step: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Position and force after the longest of step, step/2, … that lowers energy or residual."""
+        slope = float(force[self._free] @ step)
+        if not slope > 0.0:
+            raise NotSolvable(f"the stiffness is indefinite ({self._negative()} negative eigenvalues)")
+        energy, residual = self._energy(position), float(np.linalg.norm(force[self._free]))
+        share = 1.0
+        for _ in range(HALVINGS):
+            tried = position.copy()
+            tried[self._free] += share * step
+            found = self._force(tried)
+            if self._inverted() == 0:
+                lower = self._energy(tried) <= energy - SUFFICIENT * share * slope
+                # Close to equilibrium energies differ by less than their rounding; residuals do not.
+                if lower or np.linalg.norm(found[self._free]) <= (1.0 - SUFFICIENT * share) * residual:
+                    return tried, self._force(tried)
+            share *= 0.5
+        raise NotSolvable("the line search finds nothing lower")
+
+    def _negative(self) -> int:
+        return 0 if self._factors is None else self._factors.negative
+
+    def _inverted(self) -> int:
+        return total_lagrangian.inverted(self.model.law, self._work.gradient)
+
+    def _refuse_inverted(self) -> None:
+        if count := self._inverted():
+            raise NotSolvable(f"{count} particles turned inside out (det F ≤ 0)")
+
+    def _refuse_unstable(self) -> None:
+        if count := self._negative():
+            raise NotSolvable(f"an equilibrium, but not a stable one: {count} negative eigenvalues")

@@ -1,0 +1,332 @@
+"""Total Lagrangian SPH, variational and without hourglass modes: energy and force.
+
+With bonds of weight w_ij = V_i V_j (-W'(R)/R) and L_i = (Σ_j w_ij X_ij ⊗ X_ij)⁻¹,
+
+    F_i = (Σ_j w_ij x_ij ⊗ X_ij) L_i                                  (Bonet & Lok 1999: least squares)
+    U   = Σ_i V_i ψ(F_i) + ½ ζ µ Σ_i Σ_j w_ij |x_ij - F_i X_ij|²       (the second: hourglass energy)
+    f_i = -∂U/∂x_i = Σ_j w_ij [(A_i + A_j) X_ij + 2 ζ µ x_ij],  A_i = V_i P_i L_i - ζ µ F_i
+
+so that linear and, with an objective law, angular momentum are kept to rounding. ζ = 1 makes the shear
+part a Laplacian (Zhang, Wu & Hu 2024). Everything is per thickness.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sphstudy.compilation import compiled, compiled_exactly, compiled_inner
+from sphstudy.sph import bonds, constitutive, viscosity
+from sphstudy.sph.bonds import Bonds
+from sphstudy.sph.constitutive import Law
+from sphstudy.sph.constraints import Constraints
+from sphstudy.sph.crack import Crack
+from sphstudy.sph.kernel import Kernel
+from sphstudy.sph.viscosity import Viscosity
+
+XX, XY, YX, YY = range(4)
+
+FLATTEST = 1e-10
+"""Smallest ratio of det Σ w X⊗X to its trace squared: below, the neighbours lie on a line."""
+
+
+class Model(NamedTuple):
+    """Everything that energy and force need besides positions; optional terms are None.
+
+    x, y [N]: reference positions (m); volume [N] (m²); mass [N] (kg/m); correction [3, N]: L, xx, xy, yy
+    (1/m²); hourglass: ζµ (Pa); viscosity with its smoothing length (m) and wave speed (m/s).
+    """
+
+    x: np.ndarray
+    y: np.ndarray
+    volume: np.ndarray
+    mass: np.ndarray
+    bonds: Bonds
+    correction: np.ndarray
+    law: Law
+    hourglass: float | None
+    constraints: Constraints
+    viscosity: Viscosity | None
+    damping: float | None
+    smoothing_length: float
+    wave_speed: float
+
+
+class Workspace(NamedTuple):
+    """Arrays that evaluations reuse: deformation gradients F [4, N] and A [4, N]."""
+
+    gradient: np.ndarray
+    flux: np.ndarray
+
+
+def model(
+    x: np.ndarray,
+    y: np.ndarray,
+    mass: np.ndarray,
+    density: float,
+    shape: Kernel,
+    smoothing_length: float,
+    law: Law,
+    constraints: Constraints,
+    hourglass: float = 1.0,
+    crack: Crack | None = None,
+    viscous: Viscosity | None = None,
+    damping: float = 0.0,
+    wave_speed: float = 0.0,
+) -> Model:
+    """The model of particles at x, y [N] (m) with masses [N] (kg/m); `hourglass`: ζ; damping (1/s).
+
+    Raises ValueError where the neighbours of a particle do not determine its deformation gradient.
+    """
+    volume = mass / density
+    found = bonds.build(x, y, volume, shape, smoothing_length, crack)
+    return Model(
+        x=x,
+        y=y,
+        volume=volume,
+        mass=mass,
+        bonds=found,
+        correction=correction(found, x, y),
+        law=law,
+        hourglass=hourglass * law.shear if hourglass > 0.0 else None,
+        constraints=constraints,
+        viscosity=viscous,
+        damping=damping or None,
+        smoothing_length=smoothing_length,
+        wave_speed=wave_speed,
+    )
+
+
+def moments(bonded: Bonds, count: int) -> np.ndarray:
+    """Σ_j w_ij X_ij ⊗ X_ij of each particle [3, N] (m²): xx, xy, yy."""
+    first, second, weight, x, y = bonds.as_pairs(bonded)
+    found = np.zeros((3, count))
+    for row, product in enumerate((x * x, x * y, y * y)):
+        for end in (first, second):
+            found[row] += np.bincount(end, weight * product, minlength=count)
+    return found
+
+
+def correction(bonded: Bonds, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """L_i = (Σ_j w_ij X_ij ⊗ X_ij)⁻¹ [3, N] (1/m²): xx, xy, yy.
+
+    Raises ValueError, naming the first particle, where the neighbours lie on a line or are missing.
+    """
+    xx, xy, yy = moments(bonded, x.size)
+    determinant = xx * yy - xy * xy
+    flat = np.flatnonzero(~(determinant > FLATTEST * (xx + yy) ** 2))
+    if flat.size:
+        i = flat[0]
+        raise ValueError(
+            f"{flat.size} particles without enough neighbours for a deformation gradient, "
+            f"the first at ({x[i]:.4g}, {y[i]:.4g}) m"
+        )
+    return np.stack((yy, -xy, xx)) / determinant
+
+
+def workspace(count: int) -> Workspace:
+    """Workspace for `count` particles."""
+    return Workspace(np.zeros((4, count)), np.zeros((4, count)))
+
+
+@compiled_inner
+def _add_gradient(x, y, s, d, count, wx, wy, at, into):
+    """Adds w x_ij ⊗ X_ij of a run to its particles from `at` on; the same for both ends of a bond."""
+    xi, xj, yi, yj = (
+        x[s : s + count],
+        x[s + d : s + d + count],
+        y[s : s + count],
+        y[s + d : s + d + count],
+    )
+    xx, xy, yx, yy = (
+        into[XX, at : at + count],
+        into[XY, at : at + count],
+        into[YX, at : at + count],
+        into[YY, at : at + count],
+    )
+    for k in range(count):
+        dx, dy = xj[k] - xi[k], yj[k] - yi[k]
+        xx[k] += dx * wx
+        xy[k] += dx * wy
+        yx[k] += dy * wx
+        yy[k] += dy * wy
+
+
+@compiled
+def corrected_gradient(bonded, correction, x, y, gradient):
+    """Σ_j w_ij x_ij ⊗ X_ij L_i [4, N] of the positions x, y [N] (m) into `gradient`."""
+    b = bonded
+    gradient[:] = 0.0
+    for r in range(b.start.size):
+        s, d, count = b.start[r], b.offset[r], b.length[r]
+        wx, wy = b.run_weight[r] * b.run_x[r], b.run_weight[r] * b.run_y[r]
+        _add_gradient(x, y, s, d, count, wx, wy, s, gradient)
+        _add_gradient(x, y, s, d, count, wx, wy, s + d, gradient)
+    for p in range(b.first.size):
+        i, j = b.first[p], b.second[p]
+        dx, dy = x[j] - x[i], y[j] - y[i]
+        wx, wy = b.weight[p] * b.x[p], b.weight[p] * b.y[p]
+        for end in (i, j):
+            gradient[XX, end] += dx * wx
+            gradient[XY, end] += dx * wy
+            gradient[YX, end] += dy * wx
+            gradient[YY, end] += dy * wy
+    for i in range(x.size):
+        l_xx, l_xy, l_yy = correction[0, i], correction[1, i], correction[2, i]
+        xx, xy, yx, yy = gradient[XX, i], gradient[XY, i], gradient[YX, i], gradient[YY, i]
+        gradient[XX, i] = xx * l_xx + xy * l_xy
+        gradient[XY, i] = xx * l_xy + xy * l_yy
+        gradient[YX, i] = yx * l_xx + yy * l_xy
+        gradient[YY, i] = yx * l_xy + yy * l_yy
+
+
+@compiled
+def deformation_gradient(model, x, y, gradient):
+    """F_i [4, N] of the positions x, y [N] (m) into `gradient`; exact where the motion is affine."""
+    corrected_gradient(model.bonds, model.correction, x, y, gradient)
+
+
+@compiled_inner
+def _modulus(hourglass):
+    return 0.0 if hourglass is None else hourglass
+
+
+@compiled
+def _fluxes(model, work):
+    """A_i = V_i P_i L_i - ζ µ F_i from the deformation gradients."""
+    gradient, flux = work.gradient, work.flux
+    stiffness = _modulus(model.hourglass)
+    for i in range(gradient.shape[1]):
+        xx, xy, yx, yy = gradient[XX, i], gradient[XY, i], gradient[YX, i], gradient[YY, i]
+        p_xx, p_xy, p_yx, p_yy = constitutive.stress(model.law, xx, xy, yx, yy)
+        v = model.volume[i]
+        l_xx, l_xy, l_yy = (
+            v * model.correction[0, i],
+            v * model.correction[1, i],
+            v * model.correction[2, i],
+        )
+        flux[XX, i] = p_xx * l_xx + p_xy * l_xy - stiffness * xx
+        flux[XY, i] = p_xx * l_xy + p_xy * l_yy - stiffness * xy
+        flux[YX, i] = p_yx * l_xx + p_yy * l_xy - stiffness * yx
+        flux[YY, i] = p_yx * l_xy + p_yy * l_yy - stiffness * yy
+
+
+@compiled_inner
+def _add_force(x, y, flux, s, d, count, wx, wy, stiffness, sign, force, at):
+    """Adds sign · w [(A_i + A_j) X_ij + 2 ζ µ x_ij] of a run to its particles from `at` on."""
+    e, f = s + d, s + count
+    xi, xj, yi, yj = x[s:f], x[e : e + count], y[s:f], y[e : e + count]
+    xx_i, xy_i, yx_i, yy_i = flux[XX, s:f], flux[XY, s:f], flux[YX, s:f], flux[YY, s:f]
+    xx_j, xy_j = flux[XX, e : e + count], flux[XY, e : e + count]
+    yx_j, yy_j = flux[YX, e : e + count], flux[YY, e : e + count]
+    force_x, force_y = force[0, at : at + count], force[1, at : at + count]
+    wx, wy, stiffness = sign * wx, sign * wy, sign * stiffness
+    for k in range(count):
+        force_x[k] += (xx_i[k] + xx_j[k]) * wx + (xy_i[k] + xy_j[k]) * wy + stiffness * (xj[k] - xi[k])
+        force_y[k] += (yx_i[k] + yx_j[k]) * wx + (yy_i[k] + yy_j[k]) * wy + stiffness * (yj[k] - yi[k])
+
+
+@compiled
+def force(model, x, y, work, force):
+    """f_i = -∂U/∂x_i [2, N] (N/m) at the positions x, y [N] (m) into `force`; leaves F in `work`."""
+    deformation_gradient(model, x, y, work.gradient)
+    _fluxes(model, work)
+    b, flux = model.bonds, work.flux
+    stiffness = 2.0 * _modulus(model.hourglass)
+    force[:] = 0.0
+    for r in range(b.start.size):
+        s, d, count, w = b.start[r], b.offset[r], b.length[r], b.run_weight[r]
+        wx, wy = w * b.run_x[r], w * b.run_y[r]
+        _add_force(x, y, flux, s, d, count, wx, wy, w * stiffness, 1.0, force, s)
+        _add_force(x, y, flux, s, d, count, wx, wy, w * stiffness, -1.0, force, s + d)
+    for p in range(b.first.size):
+        i, j, w = b.first[p], b.second[p], b.weight[p]
+        wx, wy = w * b.x[p], w * b.y[p]
+        f_x = (flux[XX, i] + flux[XX, j]) * wx + (flux[XY, i] + flux[XY, j]) * wy
+        f_y = (flux[YX, i] + flux[YX, j]) * wx + (flux[YY, i] + flux[YY, j]) * wy
+        f_x += w * stiffness * (x[j] - x[i])
+        f_y += w * stiffness * (y[j] - y[i])
+        force[0, i] += f_x
+        force[1, i] += f_y
+        force[0, j] -= f_x
+        force[1, j] -= f_y
+
+
+@compiled_inner
+def _misfit(gradient, i, dx, dy, x, y):
+    """|x_ij - F_i X_ij|² [m²]."""
+    off_x = dx - gradient[XX, i] * x - gradient[XY, i] * y
+    off_y = dy - gradient[YX, i] * x - gradient[YY, i] * y
+    return off_x * off_x + off_y * off_y
+
+
+@compiled
+def energies(model, x, y, work):
+    """Σ V ψ(F) and the hourglass energy [J/m] at the positions x, y [N] (m); leaves F in `work`."""
+    gradient = work.gradient
+    deformation_gradient(model, x, y, gradient)
+    strain = 0.0
+    for i in range(x.size):
+        strain += model.volume[i] * constitutive.energy_density(
+            model.law, gradient[XX, i], gradient[XY, i], gradient[YX, i], gradient[YY, i]
+        )
+    b = model.bonds
+    misfit = 0.0
+    for r in range(b.start.size):
+        for i in range(b.start[r], b.start[r] + b.length[r]):
+            j = i + b.offset[r]
+            for end in (i, j):
+                misfit += b.run_weight[r] * _misfit(
+                    gradient, end, x[j] - x[i], y[j] - y[i], b.run_x[r], b.run_y[r]
+                )
+    for p in range(b.first.size):
+        i, j = b.first[p], b.second[p]
+        for end in (i, j):
+            misfit += b.weight[p] * _misfit(gradient, end, x[j] - x[i], y[j] - y[i], b.x[p], b.y[p])
+    return strain, 0.5 * _modulus(model.hourglass) * misfit
+
+
+@compiled_inner
+def _add_viscous(viscous, model, velocity_x, velocity_y, x, y, i, j, w, force):
+    """Π_ij of (2.21) along the line between the particles as they stand: keeps both momenta."""
+    dx, dy = x[j] - x[i], y[j] - y[i]
+    approach = dx * (velocity_x[j] - velocity_x[i]) + dy * (velocity_y[j] - velocity_y[i])
+    rho_i, rho_j = model.mass[i] / model.volume[i], model.mass[j] / model.volume[j]
+    pressure = viscosity.pressure(
+        viscous,
+        model.smoothing_length,
+        approach,
+        dx * dx + dy * dy,
+        2.0 * model.wave_speed,
+        rho_i + rho_j,
+    )
+    push = w * rho_i * rho_j * pressure
+    force[0, i] -= push * dx
+    force[1, i] -= push * dy
+    force[0, j] += push * dx
+    force[1, j] += push * dy
+
+
+@compiled
+def add_viscosity(viscous, model, velocity_x, velocity_y, x, y, force):
+    """Adds the forces of the artificial viscosity [2, N] (N/m), unless `viscous` is None."""
+    if viscous is None:
+        return
+    b = model.bonds
+    for r in range(b.start.size):
+        for i in range(b.start[r], b.start[r] + b.length[r]):
+            w = b.run_weight[r]
+            _add_viscous(viscous, model, velocity_x, velocity_y, x, y, i, i + b.offset[r], w, force)
+    for p in range(b.first.size):
+        i, j, w = b.first[p], b.second[p], b.weight[p]
+        _add_viscous(viscous, model, velocity_x, velocity_y, x, y, i, j, w, force)
+
+
+@compiled_exactly
+def inverted(law, gradient):
+    """How many particles are turned inside out, det F ≤ 0; to the linear law that means nothing."""
+    count = 0
+    if law.svk is not None or law.neohookean is not None:
+        for i in range(gradient.shape[1]):
+            area = gradient[XX, i] * gradient[YY, i] - gradient[XY, i] * gradient[YX, i]
+            count += not area > 0.0
+    return count

@@ -4,6 +4,7 @@ They lie in `results/reference`, tracked, one netCDF file a study; `thesis_value
 the ranges that the thesis's text and axes give.
 """
 
+import itertools
 from functools import cache
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import xarray as xr
 import yaml
 from pydantic import TypeAdapter
 
-from sphstudy import collect, provenance, results
+from sphstudy import collect, provenance, results, study
 from sphstudy.composition import Session
 from sphstudy.config import ConfigurationError
 from sphstudy.effects import effects
@@ -19,9 +20,6 @@ from sphstudy.parameters import described, number, parameters
 from sphstudy.store import Store, read_dataset, write
 from sphstudy.study import Values
 from sphstudy.tolerance import Tolerance, tolerances
-
-CHOICES = "choices"
-"""The study whose effects say how wide an interval may be."""
 
 
 def folder() -> Path:
@@ -81,22 +79,27 @@ def make(hydra: Session, name: str, store_folder: str) -> list[Path]:
     state = provenance.provenance()["git_state"]
     if len(state) != 40:
         raise ConfigurationError([f"reference {name}: the sources are {state}: commit them first"])
-    choices = results.load(CHOICES, hydra, [], store_folder)
     whole = results.load(name, hydra, [], store_folder)
+    asked = {member: tuple(study.load(member).choices) for member in study.members(name)}
+    choices = {
+        other: results.load(other, hydra, [], store_folder)
+        for other in dict.fromkeys(itertools.chain.from_iterable(asked.values()))
+    }
     complaints = [
         f"reference {name}: {row['record']} is {row['status']} {row['git_state']}".rstrip()
-        for table in (whole.table, choices.table)
+        for table in (whole.table, *(other.table for other in choices.values()))
         for _, row in table.drop_duplicates("record").iterrows()
         if row["status"] not in ("done", "diverged") or len(row["git_state"]) != 40
     ]
     if complaints:
         raise ConfigurationError(list(dict.fromkeys(complaints)))
-    allowed = tolerances(effects(choices))
+    found = {other: effects(stored) for other, stored in choices.items()}
     paths = []
     for member, own in whole.table.groupby("study", sort=False):
         configs = [whole.config_at(index) for index in own.drop_duplicates("record").index]
         dataset, _ = collect.collect(configs, Store(store_folder), str(member))
         path = folder() / f"{member}.nc"
+        allowed = tolerances(itertools.chain.from_iterable(found[o] for o in asked[str(member)]))
         write(_with_intervals(dataset, allowed), path, "NETCDF3_64BIT")
         paths.append(path)
     return paths

@@ -9,6 +9,7 @@
     shows: [choices]            # studies shown with it as far as their points are stored, never run by it
     figures: [crack.release_rates]     # module.function of sphstudy/report/figures
     claims: [C1, C2]            # of sphstudy/claims
+    choices: [choices]          # studies of open choices that say how wide intervals of a reference are
     unstable:                   # cells whose numbers nothing may be judged by
       - {where: {h: 1.3, n: [15, 21]}, reason: why}
     skip_invalid: true          # leave out cells that are not valid instead of refusing the study
@@ -56,6 +57,7 @@ class Study:
     shows: list[str] = described("studies shown with this one, as far as they are stored")
     figures: list[str] = described("figures, module.function")
     claims: list[str] = described("claims checked, by id")
+    choices: list[str] = described("studies of open choices, for the intervals of its reference")
     unstable: list[Unstable] = described("cells that sit in an instability")
     skip_invalid: bool = described("leave out cells that are not valid")
     forbid_diverged: bool = described("whether a diverged point counts as failed")
@@ -67,6 +69,7 @@ _OPTIONAL: dict[str, Any] = {
     "shows": [],
     "figures": [],
     "claims": [],
+    "choices": ["choices"],
     "unstable": [],
     "skip_invalid": False,
     "forbid_diverged": False,

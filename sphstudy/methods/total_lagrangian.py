@@ -25,13 +25,11 @@ BYTES_PER_PARTICLE = 500
 BYTES_PER_PAIR = 150
 """Bonds, and the pairs one by one while totals are taken."""
 
-FACTOR_ENTRIES = 75.0
-"""Of L and U per particle and per root of their number, times the square of the support in spacings over
-2.6²: measured on squares of 60² to 240² particles.
-"""
+STIFFNESS_BYTES = 3000
+"""Of the stiffness and its intermediate products per particle and squared support in spacings."""
 
-BYTES_PER_ENTRY = 30
-"""Of the factors: value and index, and the work space of the factorisation."""
+FACTOR_BYTES = 45
+"""Of the factor of a square body per particle^1.5 and support in spacings: a band of two supports."""
 
 
 @parameters
@@ -71,7 +69,7 @@ def memory(particles: int, config) -> float:
     pairs = 0.5 * particles * math.pi * support**2
     needed = particles * BYTES_PER_PARTICLE + pairs * BYTES_PER_PAIR
     if config.solve.name != "explicit":
-        needed += BYTES_PER_ENTRY * FACTOR_ENTRIES * (support / 2.6) ** 2 * particles**1.5
+        needed += STIFFNESS_BYTES * support**2 * particles + FACTOR_BYTES * support * particles**1.5
     return needed
 
 

@@ -12,7 +12,7 @@ from sphstudy.solve.newton import Effort, Newton
 from sphstudy.solve.potential_system import closure_work, fields, internal_force, totals
 from sphstudy.solve.solution import Snapshot, Solution, Variable
 
-SECONDS_PER_COST = 2e-6
+SECONDS_PER_COST = 1e-6
 """CPU time of a linear system per particle^1.5, on one Zen 4 core, where no run tells."""
 
 USUAL_ITERATIONS = 5

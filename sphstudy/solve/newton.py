@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
-from sphstudy.solve.factorisation import Factorisation, NotSolvable
+from sphstudy.solve.factorisation import Factorisation, NotSolvable, along_body
 from sphstudy.sph import stiffness, total_lagrangian
 from sphstudy.sph.total_lagrangian import Model
 
@@ -18,7 +18,7 @@ HALVINGS = 12
 
 @dataclass
 class Effort:
-    """What solutions took: linear systems solved, factor entries at most, largest residual."""
+    """What solutions took: linear systems solved, entries of factors at most, largest residual."""
 
     systems: int = 0
     entries: int = 0
@@ -41,10 +41,8 @@ class Newton:
         self._reference = np.concatenate((model.x, model.y))
         self._operators = stiffness.operators(model)
         self._work = total_lagrangian.workspace(count)
+        self._order = freedoms_along_body(model, self._free)
         self._factors: Factorisation | None = None
-        # The hourglass energy leaves the linear law no mode without energy, and all its moduli are
-        # positive: nothing needs to be judged.
-        self._judged = model.law.objective or model.hourglass is None
 
     def equilibrium(self, position: np.ndarray, amplitude: float) -> np.ndarray:
         """Positions [2N] (m) at rest with prescribed freedoms at target · amplitude, from a start.
@@ -64,19 +62,20 @@ class Newton:
         position[self._free] += step
         force = self._force(position)
         self._refuse_inverted()
-        for _ in range(self.iterations):
+        for iteration in range(self.iterations + 1):
             residual = self._residual(force)
             if residual <= self.tolerance:
                 self.effort.residual = max(self.effort.residual, residual)
-                self._refuse_unstable()
                 return position
+            if iteration == self.iterations:
+                break
             if self.model.law.objective:
                 self._factors = None
             step = self._factors_of(self._tangent()).solve(force[self._free])
             self.effort.systems += 1
             position, force = self._searched(position, force, step)
         raise NotSolvable(
-            f"no equilibrium in {self.iterations} iterations (residual {self._residual(force):.1e})"
+            f"no equilibrium, iteration {self.iterations} leaves a residual of {residual:.1e}"
         )
 
     def forget(self) -> None:
@@ -103,7 +102,7 @@ class Newton:
 
     def _factors_of(self, stiff: sparse.csc_array) -> Factorisation:
         if self._factors is None:
-            self._factors = Factorisation(stiff[self._free][:, self._free], self._judged)
+            self._factors = Factorisation(stiff[self._free][:, self._free], self._order)
             self.effort.entries = max(self.effort.entries, self._factors.entries)
         return self._factors
 
@@ -113,7 +112,7 @@ class Newton:
         """Position and force after the longest of step, step/2, … that lowers energy or residual."""
         slope = float(force[self._free] @ step)
         if not slope > 0.0:
-            raise NotSolvable(f"the stiffness is indefinite ({self._negative()} negative eigenvalues)")
+            raise NotSolvable("the step goes up: residual and stiffness have lost all digits")
         energy, residual = self._energy(position), float(np.linalg.norm(force[self._free]))
         share = 1.0
         for _ in range(HALVINGS):
@@ -128,16 +127,17 @@ class Newton:
             share *= 0.5
         raise NotSolvable("the line search finds nothing lower")
 
-    def _negative(self) -> int:
-        return 0 if self._factors is None else self._factors.negative
-
     def _inverted(self) -> int:
         return total_lagrangian.inverted(self.model.law, self._work.gradient)
 
     def _refuse_inverted(self) -> None:
         if count := self._inverted():
-            raise NotSolvable(f"{count} particles turned inside out (det F ≤ 0)")
+            raise NotSolvable(f"inverted deformation gradients, det F ≤ 0 ({count} of them)")
 
-    def _refuse_unstable(self) -> None:
-        if count := self._negative():
-            raise NotSolvable(f"an equilibrium, but not a stable one: {count} negative eigenvalues")
+
+def freedoms_along_body(model: Model, free: np.ndarray) -> np.ndarray:
+    """Order [M] of the free freedoms [M] (of 2N, x before y) that makes a narrow band."""
+    count = model.x.size
+    place = np.empty(count, np.int64)
+    place[along_body(model.x, model.y)] = np.arange(count)
+    return np.argsort(2 * place[free % count] + (free >= count))

@@ -54,7 +54,8 @@ class PotentialSystem:
         wrong = {
             verlet.SOUND: "",
             verlet.NOT_FINITE: "a value that is not finite",
-            verlet.INVERTED: "a particle turned inside out (det F ≤ 0)",
+            verlet.INVERTED: "an inverted deformation gradient, det F ≤ 0",
+            verlet.TOO_FAR: "a step too far",
         }
         return step, wrong[found]
 

@@ -18,8 +18,11 @@ STATE_ROWS = 6
 CHECK_INTERVAL = 50
 """Steps between two looks at whether the run is still sound."""
 
-SOUND, NOT_FINITE, INVERTED = range(3)
+SOUND, NOT_FINITE, INVERTED, TOO_FAR = range(4)
 """What `advance` says about the state."""
+
+LONGEST_STRIDE = 0.25
+"""Smoothing lengths that a particle may move in a step: no solid moves faster, an unstable step does."""
 
 
 class Buffers(NamedTuple):
@@ -51,8 +54,8 @@ def accelerate(model, state, memory):
 
 
 @compiled
-def soundness(model, state, memory):
-    """Whether all is finite and nothing turned inside out: SOUND, NOT_FINITE or INVERTED."""
+def soundness(model, state, memory, dt):
+    """Whether all is finite, nothing turned inside out, and nothing moves too far in a step."""
     if total_lagrangian.inverted(model.law, memory.work.gradient) > 0:
         return INVERTED
     for i in range(state.shape[1]):
@@ -61,6 +64,9 @@ def soundness(model, state, memory):
             total += state[row, i]
         if not np.isfinite(total):
             return NOT_FINITE
+        speed = np.sqrt(state[VX, i] ** 2 + state[VY, i] ** 2)
+        if speed * dt > LONGEST_STRIDE * model.smoothing_length:
+            return TOO_FAR
     return SOUND
 
 
@@ -119,11 +125,11 @@ def advance(heun, model, state, memory, amplitude_rate, dt, begin, end):
     """
     for step in range(begin, end):
         if step % CHECK_INTERVAL == 0:
-            found = soundness(model, state, memory)
+            found = soundness(model, state, memory, dt)
             if found != SOUND:
                 return step, found
         if heun is None:
             _verlet_step(model, state, memory, amplitude_rate, dt)
         else:
             _heun_step(model, state, memory, amplitude_rate, dt)
-    return end, soundness(model, state, memory)
+    return end, soundness(model, state, memory, dt)

@@ -24,6 +24,8 @@ from sphstudy.record import STATUS
 from sphstudy.store import Store
 
 _GROUPS = {"scene": scene_module, "method": method_module, "solve": solver_module}
+_NAME = 16
+"""Width of a column of names."""
 
 
 def _settings(group: str, name: str) -> dict:
@@ -54,15 +56,15 @@ def list_command(arguments: list[str]) -> int:
     for group in _GROUPS:
         print(f"{group}:")
         for name in _names(group):
-            print(f"  {name:10s} {_first_line(_module(group, name))}")
+            print(f"  {name:{_NAME}s} {_first_line(_module(group, name))}")
     print("metrics:")
     modules = {m: None for name in _names("scene") for m in _module("scene", name).METRICS}
     for name in modules:
         module = importlib.import_module(f"sphstudy.metrics.{name}")
-        print(f"  {name:12s} {_first_line(module)}")
+        print(f"  {name:{_NAME}s} {_first_line(module)}")
     print("studies:")
     for name in study.names():
-        print(f"  {name:10s} {study.load(name).title}")
+        print(f"  {name:{_NAME}s} {study.load(name).title}")
     return 0
 
 

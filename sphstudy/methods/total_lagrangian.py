@@ -1,4 +1,4 @@
-"""Total Lagrangian SPH: variational, corrected, without hourglass modes (sph.total_lagrangian)."""
+"""Total Lagrangian SPH: variational, corrected, without hourglass modes."""
 
 import math
 from collections.abc import Iterator

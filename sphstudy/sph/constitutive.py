@@ -100,20 +100,22 @@ def _stress(svk, neohookean, thins, lame, shear, xx, xy, yx, yy):
 def stress(law, xx, xy, yx, yy):
     """First Piola–Kirchhoff stress P [Pa] of the deformation gradient F, component by component.
 
-    The neo-Hookean law gives NaN where det F ≤ 0.
+    The neo-Hookean law gives no finite stress where det F ≤ 0.
     """
     return _stress(law.svk, law.neohookean, law.thins, law.lame, law.shear, xx, xy, yx, yy)
 
 
 @compiled_inner
 def _energy(svk, neohookean, thins, lame, shear, xx, xy, yx, yy):
+    e_xx, e_yy, e_xy = xx - 1.0, yy - 1.0, 0.5 * (xy + yx)
     if neohookean is not None:
-        log_area = np.log(xx * yy - xy * yx)
+        # I₁ - 3 and J - 1 from the displacement gradient: from F, small strains would drown in rounding.
+        trace = e_xx + e_yy
+        log_area = np.log1p(trace + e_xx * e_yy - xy * yx)
         s = _thickness(thins, lame, shear, log_area)
         log_volume = log_area + s
-        first = xx * xx + xy * xy + yx * yx + yy * yy + np.exp(2.0 * s) - 3.0
+        first = 2.0 * trace + e_xx * e_xx + e_yy * e_yy + xy * xy + yx * yx + np.expm1(2.0 * s)
         return 0.5 * shear * first - shear * log_volume + 0.5 * lame * log_volume * log_volume
-    e_xx, e_yy, e_xy = xx - 1.0, yy - 1.0, 0.5 * (xy + yx)
     if svk is not None:
         e_xx = 0.5 * (xx * xx + yx * yx - 1.0)
         e_yy = 0.5 * (xy * xy + yy * yy - 1.0)

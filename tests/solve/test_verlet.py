@@ -99,20 +99,21 @@ def test_one_step_is_kick_drift_kick(driven):
 
 
 def test_one_step_of_heun_is_predictor_and_trapezoidal_corrector(driven):
+    """Driven freedoms are driven from the first moment, whatever velocity they come with."""
     made, state = driven
     dt = 0.05
-
-    def rates(positions, velocity):
-        change = acceleration(made, positions, velocity) - DAMPING * velocity
-        return np.concatenate((velocity, change))
-
-    state[2:4] = prescribed(state[2:4])
     computed, *_ = stepped(made, state, dt, [1], heun=True)
-    first = rates(state[:2], state[2:4])
-    predicted = state[:4] + dt * first
-    predicted[2:4] = prescribed(predicted[2:4])
-    expected = state[:4] + 0.5 * dt * (first + rates(predicted[:2], predicted[2:4]))
-    expected[2:4] = prescribed(expected[2:4])
+
+    def rates(velocity, force_per_mass):
+        return np.concatenate((velocity, force_per_mass - DAMPING * velocity))
+
+    start = np.concatenate((state[:2], prescribed(state[2:4])))
+    first = rates(start[2:], acceleration(made, state[:2], state[2:4]))
+    predicted = start + dt * first
+    predicted[2:] = prescribed(predicted[2:])
+    second = rates(predicted[2:], acceleration(made, predicted[:2], predicted[2:]))
+    expected = start + 0.5 * dt * (first + second)
+    expected[2:] = prescribed(expected[2:])
     np.testing.assert_allclose(computed[:4], expected, rtol=0.0, atol=1e-13)
     last = acceleration(made, computed[:2], computed[2:4])
     np.testing.assert_allclose(computed[4:], last, rtol=0.0, atol=1e-13)

@@ -5,7 +5,8 @@ import re
 import numpy as np
 import pytest
 
-from sphstudy.sph import pair_sums
+from sphstudy.sph import constitutive, pair_sums, total_lagrangian
+from sphstudy.sph.material import Material
 from sphstudy.sph.updated_lagrangian import build_neighbours, rates, workspace
 from tests.sph.clouds import lattice_positions, model, random_state
 
@@ -59,3 +60,39 @@ def test_absent_terms_have_no_arrays(rng, terms, rows):
 def test_no_crack_no_visibility(rng):
     positions = lattice_positions()
     assert model(rng, positions, ()).crack is None
+
+
+def generated_from(function, *arguments):
+    """LLVM code of a compiled function for these arguments, compiled afresh."""
+    import numba
+
+    from sphstudy.compilation import _FAST_MATH
+
+    fresh = numba.njit(fastmath=_FAST_MATH, error_model="numpy")(function.py_func)
+    fresh(*arguments)
+    return fresh.inspect_llvm(fresh.signatures[0])
+
+
+def test_a_law_is_compiled_without_the_others():
+    material = Material(10.0, 0.3, 1.0, "strain")
+    code = {
+        name: generated_from(constitutive.stress, constitutive.law(name, material), 1.1, 0.1, 0.0, 0.9)
+        for name in constitutive.LAWS
+    }
+    products = {name: operations(text, "fmul[a-z ]*") for name, text in code.items()}
+    assert products["linear"] < products["svk"]
+    assert "log" in code["neohookean"]
+    assert "log" not in code["linear"] + code["svk"]
+
+
+def test_loops_over_bonds_are_vectorised():
+    values, one = np.zeros((4, 64)), 1.0
+    x, y = values[0], values[1]
+    gradient = generated_from(
+        total_lagrangian._add_gradient, x, y, 0, 3, 32, one, one, 0, np.zeros((4, 64))
+    )
+    force = generated_from(
+        total_lagrangian._add_force, x, y, values, 0, 3, 32, one, one, one, one, np.zeros((2, 64)), 0
+    )
+    for code in (gradient, force):
+        assert re.search(r"fmul[a-z ]*<\d+ x double>", code)

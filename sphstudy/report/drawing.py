@@ -4,12 +4,17 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator, NullLocator
 from numpy.typing import ArrayLike
 
 from sphstudy.config import RunConfig, scene_module
+from sphstudy.metrics.regularity import nearest_distances
 from sphstudy.results import Missing, Results
 from sphstudy.scenes.problem import Problem
 
@@ -64,6 +69,42 @@ def footprints(
     axes.add_collection(collection, autolim=True)
     axes.autoscale_view()
     return collection
+
+
+def beside_wall(states: list[tuple[str, xr.Dataset]], end: float) -> Figure:
+    """A panel for each state of a plate, (title, record at one snapshot): its particles with x < end (m).
+
+    Each particle at half its size. Below the title stands the smallest distance between two particles
+    there, over Δx.
+    """
+    drawing = Figure(figsize=(TEXT_WIDTH, 1.9), layout="constrained")
+    panels = drawing.subplots(1, len(states), sharex=True, sharey=True)
+    edges = []
+    for axes, (title, state) in zip(panels, states, strict=True):
+        x, y = state["x"].values, state["y"].values
+        size = np.array([float(state[f"spacing_{axis}"]) for axis in "xy"])
+        near = x < end
+        footprints(axes, x[near], y[near], *(0.5 * size), facecolor="C0", linewidth=0.0)
+        closest = nearest_distances(x, y)[near].min() / size[0]
+        edges.append((x.min() - size[0], end + size[0], y[near].min() - size[1], y[near].max() + size[1]))
+        axes.set_title(f"{title}\nclosest pair: {closest:.3f} $\\Delta x$")
+        axes.set(xlabel="$x$ (m)", aspect="equal")
+        axes.locator_params("x", nbins=4)
+        axes.grid(False)
+    left, right, bottom, top = zip(*edges, strict=True)
+    panels[0].set(xlim=(min(left), max(right)), ylim=(min(bottom), max(top)), ylabel="$y$ (m)")
+    return drawing
+
+
+def plain_logarithmic(axis: Axis) -> None:
+    """Labels a logarithmic axis with plain numbers: 1, 2, 5, 10 …, the longer it is the fewer."""
+    low, high = axis.get_view_interval()
+    subdivisions = {30.0: (1.0, 2.0, 5.0), 1000.0: (1.0, 3.0), np.inf: (1.0,)}
+    axis.set_major_locator(
+        LogLocator(subs=next(subs for most, subs in subdivisions.items() if high < most * low))
+    )
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter("{x:g}")
 
 
 def geometry(axes: Axes) -> None:

@@ -91,3 +91,12 @@ def test_an_unstable_step_ends_by_itself(body):
     _, step, sound = stepped(made, state, 5.0, [100_000])
     assert not sound
     assert step <= 200
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+@pytest.mark.parametrize("row", range(8))
+def test_what_is_not_finite_ends_the_run_at_the_check(body, row, value):
+    made, state = body
+    state[row, 17] = value
+    pairs, memory = build_neighbours(made, state), buffers(made, state.shape[1])
+    assert advance(made, state, pairs, memory, 0.0, 0.01, 0, 60) == (0, UNSOUND)

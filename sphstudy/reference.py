@@ -99,14 +99,26 @@ def make(hydra: Session, name: str, store_folder: str) -> list[Path]:
         configs = [whole.config_at(index) for index in own.drop_duplicates("record").index]
         dataset, _ = collect.collect(configs, Store(store_folder), str(member))
         path = folder() / f"{member}.nc"
-        allowed = tolerances(itertools.chain.from_iterable(found[o] for o in asked[str(member)]))
+        allowed = _widest([tolerances(found[other]) for other in asked[str(member)]])
         write(_with_intervals(dataset, allowed), path, "NETCDF3_64BIT")
         paths.append(path)
     return paths
 
 
+def _widest(several: list[dict[str, Tolerance]]) -> dict[str, Tolerance]:
+    """Of a study of several methods, whose choices are studied apart: for each metric the wider interval."""
+    allowed: dict[str, Tolerance] = {}
+    for own in several:
+        for metric, tolerance_of in own.items():
+            if metric not in allowed or tolerance_of.half_width > allowed[metric].half_width:
+                allowed[metric] = tolerance_of
+    return allowed
+
+
 def _with_intervals(dataset: xr.Dataset, allowed: dict[str, Tolerance]) -> xr.Dataset:
-    dataset = dataset.drop_vars([n for n, v in dataset.items() if v.attrs.get("group") == "cost"])
+    # Spacings stay: without them nothing can be extrapolated.
+    costs = [n for n, v in dataset.items() if v.attrs.get("group") == "cost" and n != "spacing"]
+    dataset = dataset.drop_vars(costs)
     for metric in metrics(dataset):
         if metric in allowed:
             dataset[metric].attrs["half_width"] = allowed[metric].half_width

@@ -41,8 +41,8 @@ class Annulus(NamedTuple):
 def fits(annulus: Annulus, clearance: float, edge: float) -> str:
     """Why the annulus cannot be used, in one sentence; "" if it can.
 
-    clearance (m): radius of the kernel's support and half a spacing, nearer than which a particle may see
-    the tip. edge (m): distance from the tip to the cell of the nearest driven particle.
+    clearance (m): radius of the kernel's support, nearer than which a particle has the tip inside it.
+    edge (m): distance from the tip to the cell of the nearest driven particle.
     """
     inner, outer = annulus
     if not outer > inner:

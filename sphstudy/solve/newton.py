@@ -123,7 +123,7 @@ class Newton:
                 lower = self._energy(tried) <= energy - SUFFICIENT * share * slope
                 # Close to equilibrium energies differ by less than their rounding; residuals do not.
                 if lower or np.linalg.norm(found[self._free]) <= (1.0 - SUFFICIENT * share) * residual:
-                    return tried, self._force(tried)
+                    return tried, found
             share *= 0.5
         raise NotSolvable("the line search finds nothing lower")
 

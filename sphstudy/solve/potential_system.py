@@ -86,8 +86,10 @@ def internal_force(
 
 
 def closure_work(model: Model, released: np.ndarray | None, position: np.ndarray) -> float:
-    """½ Σ (forces that the cut bonds transmitted) · (displacements now) [J/m]: what it takes to close the
-    crack again (Irwin 1957; Rybicki & Kanninen 1977), exactly the energy released if all is linear.
+    """½ Σ `released` · (displacements now) [J/m]: the work that closes the crack again (Irwin 1957; Rybicki
+    & Kanninen 1977), exactly the energy released if all is linear.
+
+    `released` [2, N]: change of the forces (N/m) when bonds were cut, the opposite of what they transmitted.
     """
     if released is None:
         return np.nan
@@ -98,6 +100,7 @@ def totals(model: Model, position: np.ndarray, velocity: np.ndarray, amplitude_r
     """Invariants of a state: positions and velocities [2, N] (m, m/s)."""
     mass, work = model.mass, total_lagrangian.workspace(model.mass.size)
     force = internal_force(model, position[0], position[1], work)
+    total_lagrangian.add_viscosity(model.viscosity, model, *velocity, *position, force)
     strain, hourglass = total_lagrangian.energies(model, *position, work)
     squared = (velocity**2).sum(axis=0)
     momentum = (mass * velocity).sum(axis=1)

@@ -102,3 +102,11 @@ def test_an_annulus_that_does_not_fit_is_said_and_leaves_no_number():
     values, found = measured(*williams_record(1, settings=("n=20",)))
     assert np.isnan([values["K_I_integral"], values["K_II_integral"], values["J"]]).all()
     assert "inner radius" in found["K_I_integral"].remark
+
+
+@pytest.mark.parametrize(("h", "fits"), [(1.99, True), (2.01, False)])
+def test_the_support_may_just_touch_the_annulus(h, fits):
+    """n = 40: the inner radius is four spacings, the support of the cubic spline 2h."""
+    settings, *fields = williams_record(1, settings=("n=40",))
+    values, _ = measured([f"h={h}" if s.startswith("h=") else s for s in settings], *fields)
+    assert np.isfinite(values["K_I_integral"]) == fits

@@ -106,7 +106,7 @@ def make(hydra: Session, name: str, store_folder: str) -> list[Path]:
 
 
 def _widest(several: list[dict[str, Tolerance]]) -> dict[str, Tolerance]:
-    """Of a study of several methods, whose choices are studied apart: for each metric the wider interval."""
+    """For each metric the widest interval: methods of one study have their choices studied apart."""
     allowed: dict[str, Tolerance] = {}
     for own in several:
         for metric, tolerance_of in own.items():

@@ -18,9 +18,9 @@ SECONDS_PER_COST = 2e-6
 """CPU time per particle^1.5, on one Zen 4 core, where no run tells."""
 
 SHIFT = 0.3
-"""The spectrum is searched from -(SHIFT · c d/l²)² upwards, c the speed of shear waves, l and d the body's
-longer and shorter extent: the lowest bending frequency of a slender body to within a small factor, so below
-every mode and close to the lowest.
+"""The spectrum is searched from -(SHIFT · c d/l²)² upwards, c the speed of shear waves, l and d the
+body's longer and shorter extent: the lowest bending frequency of a slender body to within a small factor,
+so below every mode and close to the lowest.
 """
 
 

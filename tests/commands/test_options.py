@@ -1,4 +1,4 @@
-"""Every open choice of the thesis is an option that does something, and what the skin does not do."""
+"""Every choice of a method is an option that does something, and what the skin does not do."""
 
 import numpy as np
 import pytest
@@ -14,8 +14,14 @@ CRACK = {
     "solve.extend_steps": 200,
 }
 PLATE = {"scene": "plate", "n": 5, "scene.periods": 0.3}
+TOTAL = {"scene": "mode2", "method": "tl", "n": 16, "solve.load_steps": 100, "solve.settle_steps": 50}
 
 OPTIONS = [
+    (TOTAL, {"method.hourglass": 0.5}),
+    (TOTAL, {"solve.damping": 100.0}),
+    (TOTAL, {"solve.courant": 0.4}),
+    (TOTAL, {"solve.time_step": "frequency"}),
+    ({**TOTAL, "solve.time_step": "frequency"}, {"solve.safety": 0.5}),
     (CRACK, {"method.bulk_modulus": "primed"}),
     (CRACK, {"method.constrained_smoothing": "free"}),
     (CRACK, {"method.visibility": "exclusive"}),
@@ -38,6 +44,10 @@ OPTIONS = [
     (PLATE, {"scene.H0": 0.03}),
 ]
 SLOW_OPTIONS = [
+    (TOTAL, {"method.kernel": "wendland"}),
+    (TOTAL, {"method.law": "svk"}),
+    (TOTAL, {"method.viscosity_linear": 1.0}),
+    (TOTAL, {"solve.integrator": "heun"}),
     (CRACK, {"method.retest_visibility": False}),
     (CRACK, {"method.artificial_stress": 0.0}),
     (CRACK, {"solve.smoothing": 0.0, "solve.damping": 0.0}),

@@ -130,7 +130,7 @@ def _matching(rows: pd.DataFrame, place: dict[str, Any]) -> pd.Series | None:
 
 
 def _agree(settings: Any, place: dict[str, Any]) -> bool:
-    return all(_plain(settings[key]) == _plain(v) for key, v in place.items() if key in settings)
+    return all(_plain(settings.get(key)) == _plain(v) for key, v in place.items())
 
 
 def _plain(value: Any) -> float | str:

@@ -2,6 +2,7 @@
 
 import pytest
 
+from sphstudy import reference
 from sphstudy.effects import CONTROL, Effect
 from sphstudy.tolerance import ABOVE_ROUNDING, SHARE, tolerances
 
@@ -48,3 +49,13 @@ def test_each_metric_has_its_own():
     assert {m: t.half_width for m, t in tolerances(found).items()} == pytest.approx(
         {"frequency": 0.05, "amplitude": 0.1}
     )
+
+
+def test_of_two_methods_choices_the_wider_interval_holds():
+    """Blocks of the same name in both, but each method's choices and rounding count for itself."""
+    one = tolerances([effect("a=1", 4.0), effect("a=1", 3.0, metric="decay")])
+    other = tolerances([effect("b=1", 0.5), effect("b=1", 8.0, metric="decay")])
+    held = reference._widest([one, other])
+    assert held["frequency"].half_width == SHARE * 4.0
+    assert held["decay"].half_width == SHARE * 8.0
+    assert "b=1" in held["decay"].reason

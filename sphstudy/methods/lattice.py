@@ -16,7 +16,7 @@ def support(config) -> float:
     return config.h * kernel.KERNELS[config.method.kernel].support
 
 
-def neighbours(config) -> int:
+def lattice_neighbours(config) -> int:
     """Neighbours of a particle of a square lattice that lie strictly inside its support."""
     radius = support(config)
     reach = np.arange(-math.ceil(radius), math.ceil(radius) + 1)
@@ -26,7 +26,7 @@ def neighbours(config) -> int:
 
 def check(config) -> Iterator[str]:
     """Complaints about h and n."""
-    found = neighbours(config)
+    found = lattice_neighbours(config)
     if found < FEWEST_NEIGHBOURS:
         least = math.sqrt(2) * config.h / support(config)
         yield (

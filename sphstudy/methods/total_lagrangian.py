@@ -1,11 +1,10 @@
 """Total Lagrangian SPH: variational, corrected, without hourglass modes."""
 
 import math
-from collections.abc import Iterator
 from typing import Literal
 
 from sphstudy.config import scene_module
-from sphstudy.methods import lattice
+from sphstudy.methods.lattice import check, lattice_neighbours, support
 from sphstudy.parameters import described, number, parameters
 from sphstudy.scenes.problem import Problem
 from sphstudy.solve.potential_system import PotentialSystem
@@ -14,6 +13,19 @@ from sphstudy.sph import constitutive, kernel, total_lagrangian
 from sphstudy.sph.crack import Crack
 from sphstudy.sph.total_lagrangian import Model
 from sphstudy.sph.viscosity import Viscosity
+
+__all__ = [
+    "INTEGRATORS",
+    "SOLVERS",
+    "Parameters",
+    "check",
+    "highest_frequency",
+    "lattice_neighbours",
+    "memory",
+    "model",
+    "system",
+    "wave_speed",
+]
 
 SOLVERS = ("explicit", "equilibrium", "modes")
 
@@ -50,23 +62,13 @@ class Parameters:
     visibility_tolerance: float = number("widening of the inclusive visibility test", gt=0, lt=1e-2)
 
 
-def lattice_neighbours(config) -> int:
-    """Neighbours of a particle of a square lattice that lie strictly inside its support."""
-    return lattice.neighbours(config)
-
-
-def check(config) -> Iterator[str]:
-    """Complaints about h and n."""
-    yield from lattice.check(config)
-
-
 def memory(particles: int, config) -> float:
     """Estimated peak memory of a run (bytes)."""
-    support = lattice.support(config)
-    pairs = 0.5 * particles * math.pi * support**2
+    reach = support(config)
+    pairs = 0.5 * particles * math.pi * reach**2
     needed = particles * BYTES_PER_PARTICLE + pairs * BYTES_PER_PAIR
     if config.solve.name != "explicit":
-        needed += STIFFNESS_BYTES * support**2 * particles + FACTOR_BYTES * support * particles**1.5
+        needed += STIFFNESS_BYTES * reach**2 * particles + FACTOR_BYTES * reach * particles**1.5
     return needed
 
 

@@ -1,12 +1,11 @@
 """The thesis formulation: updated Lagrangian SPH, symmetric momentum equation, continuity, XSPH."""
 
 import math
-from collections.abc import Iterator
 from typing import Literal
 
 import numpy as np
 
-from sphstudy.methods import lattice
+from sphstudy.methods.lattice import check, lattice_neighbours, support
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Problem
 from sphstudy.solve.rate_system import RateSystem
@@ -15,6 +14,18 @@ from sphstudy.sph.artificial_stress import ArtificialStress
 from sphstudy.sph.crack import Crack
 from sphstudy.sph.updated_lagrangian import Model
 from sphstudy.sph.viscosity import Viscosity
+
+__all__ = [
+    "INTEGRATORS",
+    "SOLVERS",
+    "Parameters",
+    "check",
+    "lattice_neighbours",
+    "memory",
+    "model",
+    "system",
+    "wave_speed",
+]
 
 SOLVERS = ("explicit",)
 
@@ -58,19 +69,9 @@ class Parameters:
     skin: float = number("skin of the neighbour list, in particle spacings", gt=0, le=1)
 
 
-def lattice_neighbours(config) -> int:
-    """Neighbours of a particle of a square lattice that lie strictly inside its support."""
-    return lattice.neighbours(config)
-
-
-def check(config) -> Iterator[str]:
-    """Complaints about h and n."""
-    yield from lattice.check(config)
-
-
 def memory(particles: int, config) -> float:
     """Estimated peak memory of a run (bytes)."""
-    pairs = 0.5 * particles * math.pi * (lattice.support(config) + 0.5) ** 2
+    pairs = 0.5 * particles * math.pi * (support(config) + 0.5) ** 2
     return particles * BYTES_PER_PARTICLE + pairs * BYTES_PER_PAIR
 
 

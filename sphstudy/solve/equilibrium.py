@@ -128,7 +128,7 @@ class _Statics:
         )
 
     def _renew(self, stage: Stage) -> np.ndarray | None:
-        """The model of this stage; forces [2, N] that bonds cut now have transmitted, if any are."""
+        """Makes the model that of this stage; change of the forces [2, N] (N/m) if bonds are cut."""
         if stage.crack_nodes == self.nodes:
             return None
         x, y = self.position.reshape(2, -1)
@@ -155,7 +155,6 @@ class _Statics:
                 self.position = self.newton.equilibrium(self.position, amplitude)
                 reached = amplitude
             except NotSolvable as wrong:
-                self.newton.forget()
                 increment *= 0.5
                 if increment < smallest or not self.model.law.objective:
                     raise NotSolvable(f"{wrong} at {amplitude:.4g} of the load") from None

@@ -9,7 +9,7 @@ from sphstudy.parameters import count, described, parameters
 from sphstudy.scenes.problem import Problem
 from sphstudy.solve.checkpoint import Keeper
 from sphstudy.solve.factorisation import Factorisation, NotSolvable
-from sphstudy.solve.newton import freedoms_along_body
+from sphstudy.solve.newton import freedoms, freedoms_along_body
 from sphstudy.solve.solution import Solution, Variable
 from sphstudy.sph import stiffness
 from sphstudy.sph.total_lagrangian import Model
@@ -85,9 +85,7 @@ def run(
 
 def _lowest(model: Model, wanted: int) -> tuple[np.ndarray, np.ndarray, dict[str, Variable]]:
     """ω² [K] (1/s²), shapes [K, 2N] with φᵀMφ = 1 kg/m, and variables that tell how good they are."""
-    particles, constraints = model.x.size, model.constraints
-    held = np.concatenate((constraints.x_index, particles + constraints.y_index))
-    free = np.setdiff1d(np.arange(2 * particles), held)
+    particles, free = model.x.size, freedoms(model)[1]
     unit = np.repeat(np.array([1.0, 0.0, 0.0, 1.0])[:, None], particles, axis=1)
     stiff = stiffness.tangent(model, stiffness.operators(model), unit)[free][:, free]
     mass = np.tile(model.mass, 2)[free]

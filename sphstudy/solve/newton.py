@@ -34,13 +34,11 @@ class Newton:
 
     def __init__(self, model: Model, tolerance: float, iterations: int, effort: Effort):
         self.model, self.tolerance, self.iterations, self.effort = model, tolerance, iterations, effort
-        count, constraints = model.x.size, model.constraints
-        self._held = np.concatenate((constraints.x_index, count + constraints.y_index))
-        self._target = np.concatenate((constraints.x_target, constraints.y_target))
-        self._free = np.setdiff1d(np.arange(2 * count), self._held)
+        self._held, self._free = freedoms(model)
+        self._target = np.concatenate((model.constraints.x_target, model.constraints.y_target))
         self._reference = np.concatenate((model.x, model.y))
         self._operators = stiffness.operators(model)
-        self._work = total_lagrangian.workspace(count)
+        self._work = total_lagrangian.workspace(model.x.size)
         self._order = freedoms_along_body(model, self._free)
         self._factors: Factorisation | None = None
 
@@ -77,10 +75,6 @@ class Newton:
         raise NotSolvable(
             f"no equilibrium, iteration {self.iterations} leaves a residual of {residual:.1e}"
         )
-
-    def forget(self) -> None:
-        """Drops the factors: the next start is not where they were made."""
-        self._factors = None
 
     def _force(self, position: np.ndarray) -> np.ndarray:
         force = np.zeros((2, self.model.x.size))
@@ -133,6 +127,13 @@ class Newton:
     def _refuse_inverted(self) -> None:
         if count := self._inverted():
             raise NotSolvable(f"inverted deformation gradients, det F ≤ 0 ({count} of them)")
+
+
+def freedoms(model: Model) -> tuple[np.ndarray, np.ndarray]:
+    """Held freedoms, in the order of the constraints' targets, and free ones (of 2N, x before y)."""
+    count, constraints = model.x.size, model.constraints
+    held = np.concatenate((constraints.x_index, count + constraints.y_index))
+    return held, np.setdiff1d(np.arange(2 * count), held)
 
 
 def freedoms_along_body(model: Model, free: np.ndarray) -> np.ndarray:

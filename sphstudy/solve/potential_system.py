@@ -89,7 +89,7 @@ def closure_work(model: Model, released: np.ndarray | None, position: np.ndarray
     """½ Σ `released` · (displacements now) [J/m]: the work that closes the crack again (Irwin 1957;
     Rybicki & Kanninen 1977), exactly the energy released if all is linear.
 
-    `released` [2, N]: change of the forces (N/m) as bonds were cut, less what these transmitted.
+    `released` [2, N]: change of the forces (N/m) when bonds were cut: what held the crack closed is gone.
     """
     if released is None:
         return np.nan

@@ -8,7 +8,7 @@ import pytest
 from sphstudy.composition import session
 from sphstudy.config import ConfigurationError, method_module, scene_module
 from sphstudy.prediction import prospect
-from sphstudy.solve import equilibrium
+from sphstudy.solve import equilibrium, explicit
 from sphstudy.solve.newton import Effort, Newton
 from sphstudy.solve.potential_system import internal_force
 from sphstudy.sph import stiffness, total_lagrangian
@@ -81,6 +81,16 @@ def test_work_of_closure_is_the_energy_released():
     closures = [snapshot.closure_work for snapshot in solution.snapshots]
     assert np.isnan(closures[:2]).all()
     np.testing.assert_allclose(closures[2:], released, rtol=1e-9)
+
+
+def test_damped_stepping_ends_there_and_closes_the_crack_with_the_same_work():
+    settings = ("scene=mode1", "n=16", "h=1.3")
+    statics, problem, _ = solved(*settings)
+    config = configured("solve=explicit", *settings)
+    stepped = explicit.run(problem, config, method_module(config.method.kind), lambda *_: None)
+    np.testing.assert_allclose(energies(stepped)[1:], energies(statics)[1:], rtol=1e-6)
+    closures = [[s.closure_work for s in run.snapshots[2:]] for run in (stepped, statics)]
+    np.testing.assert_allclose(*closures, rtol=1e-5)
 
 
 def test_finite_strain_tends_to_the_linear_law_with_the_load():

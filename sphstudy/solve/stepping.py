@@ -72,6 +72,8 @@ class Run:
             self._sample(step)
         ratio = self.config.solve.settle_ratio if stage.action == "settle" else None
         while step < end:
+            # Before the snapshot: whoever goes on from here takes it.
+            self._checkpoint_if_due(step)
             self._snapshot_if_requested(step)
             stop = self._next_event(step, end)
             step, wrong = self._chunked(step, stop)
@@ -89,7 +91,6 @@ class Run:
         return min(events)
 
     def _chunked(self, step: int, stop: int) -> tuple[int, str]:
-        event = step
         while step < stop:
             begun = time.perf_counter()
             reached, wrong = self.system.advance(step, min(step + self._chunk, stop))
@@ -101,10 +102,13 @@ class Run:
             self.on_progress(step, self.total)
             if wrong:
                 return step, wrong
-            # Between events only: at the last one its snapshot has been taken, at the next one not yet.
-            if event < step < stop and self.keeper.due():
-                self.keeper.save(self._checkpoint(step))
+            if step < stop:  # at the event itself its sample comes first
+                self._checkpoint_if_due(step)
         return step, ""
+
+    def _checkpoint_if_due(self, step: int) -> None:
+        if self.keeper.due():
+            self.keeper.save(self._checkpoint(step))
 
     def _checkpoint(self, step: int) -> Checkpoint:
         snapshots = self.solution.snapshots

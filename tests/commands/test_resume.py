@@ -12,7 +12,7 @@ import xarray as xr
 
 pytestmark = pytest.mark.slow
 
-COMMAND = [sys.executable, "-m", "sphstudy", "scene=plate", "n=15", "h=1.5", "scene.periods=1"]
+COMMAND = [sys.executable, "-m", "sphstudy", "scene=plate", "n=15", "h=1.5", "scene.periods=0.4"]
 
 
 def record(folder):

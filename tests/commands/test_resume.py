@@ -31,7 +31,8 @@ def test_a_killed_run_goes_on_and_is_the_uninterrupted_one(tmp_path):
     )
     runs = killed / "results" / "runs"
     deadline = time.monotonic() + 120
-    while not (found := list(runs.glob("*.checkpoint"))):
+    # A first one, of step 0, is taken where the set-up took longer than the interval.
+    while not (found := [c for c in runs.glob("*.checkpoint") if int(np.load(c)["step"]) > 0]):
         assert process.poll() is None, "the run was over before its first checkpoint"
         assert time.monotonic() < deadline
         time.sleep(0.02)
@@ -39,7 +40,7 @@ def test_a_killed_run_goes_on_and_is_the_uninterrupted_one(tmp_path):
     process.wait()
     assert not list(runs.glob("*.nc"))
     kept = dict(np.load(found[0]))
-    assert 0 < int(kept["step"]) < int(record(whole)["steps"])
+    assert int(kept["step"]) < int(record(whole)["steps"])
     # The CPU time that the killed process spent is counted: a mark to know the checkpoint by.
     kept["spent"] = np.array([1000.0, 1000.0])
     with open(found[0], "wb") as file:

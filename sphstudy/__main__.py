@@ -29,6 +29,7 @@ settings (key=value, before or after -m; several values with commas make a sweep
   scene.E=2e6  solve.courant=0.4  record.times=[1.5]   anything that `describe` shows
   results=FOLDER                                   where records go (default: results)
   checkpoint=60                                    seconds between two checkpoints of a long run
+  threads=2                                        of one long run by steps: the same bits, sooner
   hydra/launcher=joblib hydra.launcher.n_jobs=4    how many runs at once (default: one per core)
 
 flags

@@ -1,5 +1,6 @@
 """Many runs: what is there is kept, what is missing is run, longest first, all in one dataset."""
 
+import os
 import signal
 import sys
 from collections.abc import Iterator
@@ -126,6 +127,9 @@ def sweep(
     # A single run stays in this process: starting another takes longer than many a run.
     if not launcher and len(pending) <= 1:
         launcher = ["hydra/launcher=basic"]
+    threads = max((p.point.threads for p in pending), default=1)
+    if not launcher and threads > 1:
+        launcher = [f"hydra.launcher.n_jobs={max(1, (os.cpu_count() or 1) // threads)}"]
     ready = hydra.launcher(task, launcher)
     for p in pending if force else ():
         store.checkpoint_path(p.point.config).unlink(missing_ok=True)

@@ -60,6 +60,9 @@ def _forget_old_ones(root: Path) -> None:
                 shutil.rmtree(folder, ignore_errors=True)
 
 
+# Threads of a parallel loop that wait for others sleep: spinning, they would keep the cores of a
+# shared machine from those they wait for.
+os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 if not os.environ.get("NUMBA_CACHE_DIR"):
     numba.config.CACHE_DIR = str(_cache_folder())  # type: ignore[attr-defined]
 for _option in _LLVM_OPTIONS:
@@ -76,6 +79,9 @@ compiled = numba.njit(**_FAST)
 
 compiled_inner = numba.njit(**_FAST, **_INNER)
 """The same for functions that only compiled functions call."""
+
+compiled_parallel = numba.njit(**_FAST, **_INNER, parallel=True)
+"""The same for loops over blocks that several threads share (numba.prange)."""
 
 compiled_exactly = numba.njit(**_EXACT)
 """Decorator for checks and geometry, where every comparison must mean what it says."""

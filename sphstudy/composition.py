@@ -1,6 +1,7 @@
 """From the command line to points: Hydra composes, wrong input is answered before anything runs."""
 
 import difflib
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -20,17 +21,18 @@ from hydra.types import HydraContext, RunMode, TaskFunction
 from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
-from sphstudy.config import ConfigurationError, RunConfig, configuration_folder, validate
+from sphstudy.config import ConfigurationError, RunConfig, configuration_folder, solver_module, validate
 
 _LAUNCHER = ("hydra/launcher", "hydra.launcher")
 
 
 @dataclass(frozen=True)
 class Point:
-    """One run of a sweep: the overrides that make it, and the configuration they make."""
+    """One run of a sweep: the overrides that make it, the configuration they make, its threads."""
 
     overrides: tuple[str, ...]
     config: RunConfig
+    threads: int = 1
 
 
 class _NotValid(ConfigurationError):
@@ -72,7 +74,11 @@ class Session:
                 results.add(str(composed.pop("results")))
                 if not (isinstance(seconds := composed.pop("checkpoint"), int | float) and seconds > 0):
                     raise ConfigurationError([f"checkpoint={seconds}: should be a number greater than 0"])
-                points.append(Point(tuple(choice), self._validated(composed)))
+                threads = composed.pop("threads")
+                config = self._validated(composed)
+                if complaint := _too_many(threads, config):
+                    raise ConfigurationError([complaint])
+                points.append(Point(tuple(choice), config, threads))
             except _NotValid as error:
                 if skipped is None:
                     complaints |= dict.fromkeys(error.complaints)
@@ -178,6 +184,16 @@ def session() -> Iterator[Session]:
     folder = str(configuration_folder().resolve())
     with initialize_config_dir(folder, version_base="1.3", job_name="sphstudy"):
         yield Session()
+
+
+def _too_many(threads: Any, config: RunConfig) -> str | None:
+    """What is wrong with so many threads for this run."""
+    cores = os.cpu_count() or 1
+    if not isinstance(threads, int) or isinstance(threads, bool) or not 1 <= threads <= cores:
+        return f"threads={threads}: should be a whole number from 1 to {cores}, this machine's cores"
+    if threads > 1 and not solver_module(config.solve.name).THREADS:
+        return f"threads={threads}: solver {config.solve.name} runs on one thread"
+    return None
 
 
 def _without_hydra(config: DictConfig) -> dict[str, Any]:

@@ -12,7 +12,7 @@ _LIBRARIES = ("numpy", "numba", "llvmlite", "scipy", "xarray", "netCDF4", "hydra
 
 @lru_cache
 def provenance() -> dict[str, str]:
-    """Attributes for a record: product, Python and library versions, git state, processor, threads."""
+    """Attributes for a record: product, Python and library versions, git state, processor."""
     return {
         "sphstudy_version": _version("sphstudy"),
         "python_version": platform.python_version(),
@@ -20,7 +20,6 @@ def provenance() -> dict[str, str]:
         "git_state": _git_state(),
         "processor": _processor(),
         "operating_system": platform.platform(),
-        "threads": "1",
     }
 
 

@@ -27,7 +27,7 @@ SHOWN = 20
 
 def report_name(name: str, overrides: list[str]) -> str:
     """Name of a study's dataset and report: that of the study, and the settings that differ from it."""
-    changed = [o for o in overrides if not o.startswith(("results=", "checkpoint="))]
+    changed = [o for o in overrides if not o.startswith(("results=", "checkpoint=", "threads="))]
     return re.sub(r"[^\w.+=-]+", "_", "-".join([name, *changed]))
 
 

@@ -20,21 +20,21 @@ from sphstudy.provenance import provenance
 from sphstudy.store import Store, write
 
 
-def run_point(config: RunConfig, store: Store, checkpoint: float) -> xr.Dataset:
+def run_point(config: RunConfig, store: Store, checkpoint: float, threads: int = 1) -> xr.Dataset:
     """Computes a point, from its last checkpoint if there is one, writes its record and returns it.
 
-    `checkpoint`: wall time between two checkpoints (s).
+    `checkpoint`: wall time between two checkpoints (s); `threads`: as many as the solver may take.
     """
     keeper = CheckpointFile(store.checkpoint_path(config), checkpoint)
     with Marker(store.marker_path(config)) as marker:
         started = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
         try:
-            run = _solved(config, marker, keeper)
+            run = _solved(config, marker, keeper, threads)
         except Exception as error:
             store.log_path(config).write_text(traceback.format_exc())
             message = f"{type(error).__name__}: {error}".splitlines()[0]
             run = record.with_outcome(xr.Dataset(), "failed", message, {}, _attributes(config))
-        run.attrs["date_created"] = started
+        run.attrs["date_created"], run.attrs["threads"] = started, str(threads)
         write(run, store.record_path(config))
     # A failed run is run again: what it had computed until its last checkpoint is not lost.
     if record.STATUS[int(run["status"])] != "failed":
@@ -42,13 +42,13 @@ def run_point(config: RunConfig, store: Store, checkpoint: float) -> xr.Dataset:
     return run
 
 
-def _solved(config: RunConfig, marker: Marker, keeper: CheckpointFile) -> xr.Dataset:
+def _solved(config: RunConfig, marker: Marker, keeper: CheckpointFile, threads: int) -> xr.Dataset:
     scene, method = scene_module(config.scene.kind), method_module(config.method.kind)
     solver = solver_module(config.solve.name)
     wall, cpu = time.perf_counter(), time.process_time()
     with CompileTimer() as compiling:
         problem = scene.build(config)
-        solution = solver.run(problem, config, method, marker.update, keeper)
+        solution = solver.run(problem, config, method, marker.update, keeper, threads)
     cost = {
         "cpu_seconds": Metric(
             keeper.cpu_seconds + time.process_time() - cpu - compiling.cpu,
@@ -105,5 +105,6 @@ def task(composed: DictConfig) -> str:
     """Hydra's task: one point of a sweep, in whichever process the launcher chose."""
     values: Any = OmegaConf.to_container(composed, resolve=True)
     store, checkpoint = Store(values.pop("results")), float(values.pop("checkpoint"))
-    run = run_point(validate(values), store, checkpoint)
+    threads = values.pop("threads")
+    run = run_point(validate(values), store, checkpoint, threads)
     return record.STATUS[int(run["status"])]

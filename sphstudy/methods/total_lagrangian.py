@@ -83,9 +83,9 @@ def highest_frequency(config) -> float:
     return _highest_frequency(model(problem, config, problem.stages[0].crack_nodes))
 
 
-def system(problem: Problem, config, dt: float, integrator: str) -> PotentialSystem:
+def system(problem: Problem, config, dt: float, integrator: str, threads: int = 1) -> PotentialSystem:
     """The problem as explicit stepping takes it."""
-    return PotentialSystem(problem, dt, lambda nodes: model(problem, config, nodes), integrator)
+    return PotentialSystem(problem, dt, lambda nodes: model(problem, config, nodes), integrator, threads)
 
 
 def model(problem: Problem, config, crack_nodes: int) -> Model:

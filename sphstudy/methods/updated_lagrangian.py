@@ -102,9 +102,9 @@ def _crack(config, problem: Problem, nodes: int) -> Crack | None:
     )
 
 
-def system(problem: Problem, config, dt: float, integrator: str) -> RateSystem:
+def system(problem: Problem, config, dt: float, integrator: str, threads: int = 1) -> RateSystem:
     """The problem as explicit stepping takes it."""
-    return RateSystem(problem, dt, lambda nodes: model(problem, config, nodes))
+    return RateSystem(problem, dt, lambda nodes: model(problem, config, nodes), threads)
 
 
 def model(problem: Problem, config, crack_nodes: int) -> Model:

@@ -86,7 +86,7 @@ def _deformation_gradient(problem, config, x: np.ndarray, y: np.ndarray) -> np.n
     pairs = bonds.build(body.x, body.y, area, shape, length, crack)
     found = np.zeros((4, x.size))
     correction = total_lagrangian.correction(pairs, body.x, body.y)
-    total_lagrangian.corrected_gradient(pairs, correction, x, y, found)
+    total_lagrangian.corrected_gradient(None, pairs, correction, x, y, found)
     return found
 
 

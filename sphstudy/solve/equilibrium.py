@@ -15,6 +15,9 @@ from sphstudy.solve.solution import Snapshot, Solution, Variable
 SECONDS_PER_COST = 1e-6
 """CPU time of a linear system per particle^1.5, on one Zen 4 core, where no run tells."""
 
+THREADS = False
+"""A run takes one thread: on two, BLAS adds in another order."""
+
 USUAL_ITERATIONS = 5
 """Of Newton's method, for a forecast."""
 
@@ -63,6 +66,7 @@ def run(
     method,
     on_progress: Callable[[int, int], None],
     keeper: Keeper | None = None,
+    threads: int = 1,
 ) -> Solution:
     """Solves each stage for its equilibrium; calls on_progress(stage, stages) after each.
 

@@ -5,6 +5,8 @@ from collections.abc import Callable, Iterator
 from functools import lru_cache
 from typing import Literal
 
+import numba
+
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Problem, Stage
 from sphstudy.solve.checkpoint import Keeper, NoKeeper
@@ -13,6 +15,9 @@ from sphstudy.solve.stepping import Run
 
 SECONDS_PER_COST = 4e-8
 """CPU time of a step per pair, on one Zen 4 core, where no run tells."""
+
+THREADS = True
+"""Several threads can share a run."""
 
 
 @parameters
@@ -112,12 +117,17 @@ def run(
     method,
     on_progress: Callable[[int, int], None],
     keeper: Keeper | None = None,
+    threads: int = 1,
 ) -> Solution:
     """Solves the problem by explicit stepping; calls on_progress(step, steps) between chunks.
 
     Goes on from the keeper's checkpoint, if it has one, and hands it a new one whenever that is due.
+    `threads` share the sums over pairs, as far as the process has them; their number changes no bit.
     """
+    threads = min(threads, numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]
+    if threads > 1:
+        numba.set_num_threads(threads)
     dt = time_step(problem, config, method)
     steps = plan(problem.stages, config.solve, dt)
-    system = method.system(problem, config, dt, integrator(config, method))
+    system = method.system(problem, config, dt, integrator(config, method), threads)
     return Run(problem, config, system, dt, steps, on_progress, keeper or NoKeeper()).solve()

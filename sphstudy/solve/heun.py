@@ -41,10 +41,10 @@ class Buffers(NamedTuple):
     work: Workspace
 
 
-def buffers(model: Model, count: int) -> Buffers:
-    """Buffers for `count` particles."""
+def buffers(model: Model, count: int, threads: int = 1) -> Buffers:
+    """Buffers for `count` particles, summed by `threads` threads."""
     predicted, first, second = (np.zeros((STATE_ROWS, count)) for _ in range(3))
-    return Buffers(predicted, first, second, workspace(model, count))
+    return Buffers(predicted, first, second, workspace(model, count, threads))
 
 
 @compiled_exactly_inner

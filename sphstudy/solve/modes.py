@@ -17,6 +17,9 @@ from sphstudy.sph.total_lagrangian import Model
 SECONDS_PER_COST = 2e-6
 """CPU time per particle^1.5, on one Zen 4 core, where no run tells."""
 
+THREADS = False
+"""A run takes one thread: on two, BLAS adds in another order."""
+
 SHIFT = 0.3
 """The spectrum is searched from -(SHIFT · c d/l²)² upwards, c the speed of shear waves, l and d the
 body's longer and shorter extent: the lowest bending frequency of a slender body to within a small factor,
@@ -65,6 +68,7 @@ def run(
     method,
     on_progress: Callable[[int, int], None],
     keeper: Keeper | None = None,
+    threads: int = 1,
 ) -> Solution:
     """Lowest modes of the problem in its first stage, by shift-invert Lanczos (ARPACK).
 

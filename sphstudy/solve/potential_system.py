@@ -17,10 +17,17 @@ POWER_ITERATIONS = 400
 class PotentialSystem:
     """A problem whose model is an energy (sph.total_lagrangian), stepped by Verlet's or Heun's method.
 
-    dt (s); `model`: from the number of open crack nodes to the model.
+    dt (s); `model`: from the number of open crack nodes to the model; threads: how many sum over bonds.
     """
 
-    def __init__(self, problem: Problem, dt: float, model: Callable[[int], Model], integrator: str):
+    def __init__(
+        self,
+        problem: Problem,
+        dt: float,
+        model: Callable[[int], Model],
+        integrator: str,
+        threads: int = 1,
+    ):
         self.problem, self.dt, self._model_of = problem, dt, model
         self.model = model(problem.stages[0].crack_nodes)
         self._heun = True if integrator == "heun" else None
@@ -29,7 +36,7 @@ class PotentialSystem:
         self.state[verlet.X], self.state[verlet.Y] = body.x, body.y
         self.state[verlet.VX], self.state[verlet.VY] = problem.velocity_x, problem.velocity_y
         self.pairs = 0
-        self._buffers = verlet.buffers(body.x.size)
+        self._buffers = verlet.buffers(body.x.size, threads)
         self._released: np.ndarray | None = None
 
     def begin(self, stage: Stage, amplitude_rate: float, kept: dict[str, np.ndarray] | None) -> str:
@@ -133,7 +140,7 @@ def fields(model: Model, position: np.ndarray, velocity: np.ndarray) -> np.ndarr
     Under the linear law, which knows no difference between configurations, ρ0 and the stress itself.
     """
     work = total_lagrangian.workspace(model.mass.size)
-    total_lagrangian.deformation_gradient(model, *position, work.gradient)
+    total_lagrangian.deformation_gradient(None, model, *position, work.gradient)
     xx, xy, yx, yy = work.gradient
     stress = constitutive.stresses(model.law, work.gradient)
     density = model.mass / model.volume

@@ -27,11 +27,11 @@ from sphstudy.sph.updated_lagrangian import (
 class RateSystem:
     """A problem whose model gives time derivatives of the state [8, N] (sph.updated_lagrangian).
 
-    dt (s); `model`: from the number of open crack nodes to the model.
+    dt (s); `model`: from the number of open crack nodes to the model; threads: how many sum over pairs.
     """
 
-    def __init__(self, problem: Problem, dt: float, model: Callable[[int], Model]):
-        self.problem, self.dt, self._model_of = problem, dt, model
+    def __init__(self, problem: Problem, dt: float, model: Callable[[int], Model], threads: int = 1):
+        self.problem, self.dt, self._model_of, self._threads = problem, dt, model, threads
         body = problem.body
         self.state = np.zeros((STATE_ROWS, body.x.size))
         self.state[X], self.state[Y] = body.x, body.y
@@ -43,7 +43,7 @@ class RateSystem:
     def begin(self, stage: Stage, amplitude_rate: float, kept: dict[str, np.ndarray] | None) -> str:
         """See System."""
         self.model, self.amplitude_rate = self._model_of(stage.crack_nodes), amplitude_rate
-        self._buffers = buffers(self.model, self.state.shape[1])
+        self._buffers = buffers(self.model, self.state.shape[1], self._threads)
         if kept is None:
             return self._renew_neighbours()
         self._list = neighbours_at(self.model, kept["list_x"], kept["list_y"], float(kept["list_skin"]))

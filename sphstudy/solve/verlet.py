@@ -36,9 +36,10 @@ class Buffers(NamedTuple):
     predicted: np.ndarray
 
 
-def buffers(count: int) -> Buffers:
-    """Buffers for `count` particles."""
-    return Buffers(total_lagrangian.workspace(count), np.zeros((2, count)), np.zeros((STATE_ROWS, count)))
+def buffers(count: int, threads: int = 1) -> Buffers:
+    """Buffers for `count` particles, summed by `threads` threads."""
+    work = total_lagrangian.workspace(count, threads)
+    return Buffers(work, np.zeros((2, count)), np.zeros((STATE_ROWS, count)))
 
 
 @compiled

@@ -2,8 +2,11 @@
 
 Each unordered pair stands once, with its weight w = V_i V_j (-W'(R)/R) and its reference vector
 X_j - X_i, which never change. Where consecutive particles have a bond to the same distance in memory with
-the same vector and weight, as on any lattice stored row by row, the bonds form a *run* with one weight
-and one vector; all others are *single*. A lattice is nearly all runs, a random cloud all singles.
+the same vector and weight, as on any lattice stored row by row, the bonds form a *run*, over which loops
+vectorise; all others are *single*. A run goes on over a few bonds that are missing, at the end of a row
+or across a crack. A lattice is nearly all runs, a random cloud all singles.
+
+Bonds are kept by blocks of particles (see sph.pair_blocks).
 """
 
 from typing import NamedTuple
@@ -11,25 +14,33 @@ from typing import NamedTuple
 import numpy as np
 
 from sphstudy.compilation import compiled_exactly
-from sphstudy.sph import kernel, neighbours
+from sphstudy.sph import kernel, neighbours, pair_blocks
 from sphstudy.sph.crack import Crack, line_of_sight, visible
 from sphstudy.sph.kernel import Kernel
 
 SHORTEST_RUN = 8
 """Shorter runs go to the singles: their set-up costs more than they save."""
 
+LONGEST_GAP = 16
+"""A run goes on over up to so many missing bonds: cheaper than starting another one."""
+
 ALIKE = 1e-11
 """Relative difference of weights and vectors within a run: rounding of lattice coordinates."""
 
 
 class Bonds(NamedTuple):
-    """Runs: bonds (start + k, start + offset + k), k < length, all with the same weight w (a pure number)
-    and reference vector run_x, run_y (m). Singles: (first, second) with weight, x, y.
+    """Runs: bonds (start + k, start + offset + k), k < length, wherever there[at + k] is 1, not 0, with
+    one weight run_weight (a pure number) and reference vector run_x, run_y (m). Singles: (first, second)
+    with weight, x, y.
+
+    Block b holds the runs and singles from run_begin[b], single_begin[b] up to the next block's.
     """
 
     start: np.ndarray
     offset: np.ndarray
     length: np.ndarray
+    at: np.ndarray
+    there: np.ndarray
     run_weight: np.ndarray
     run_x: np.ndarray
     run_y: np.ndarray
@@ -38,11 +49,13 @@ class Bonds(NamedTuple):
     weight: np.ndarray
     x: np.ndarray
     y: np.ndarray
+    run_begin: np.ndarray
+    single_begin: np.ndarray
 
     @property
     def total(self) -> int:
         """How many bonds there are."""
-        return int(self.length.sum()) + self.first.size
+        return int(np.count_nonzero(self.there)) + self.first.size
 
 
 @compiled_exactly
@@ -70,11 +83,11 @@ def _weights(x, y, volume, first, second, shape, smoothing_length, normalisation
 
 
 @compiled_exactly
-def _runs(first, second, weight, x, y, heaviest, farthest):
-    """Begin and length of the runs among the sorted pairs, and a mask of the pairs in none."""
+def _runs(first, second, weight, x, y, heaviest, farthest, size):
+    """Begin and end of the runs among the sorted pairs, and a mask of the pairs in none."""
     total = first.size
     begin = np.empty(total // SHORTEST_RUN + 1, np.int64)
-    length = np.empty_like(begin)
+    end = np.empty_like(begin)
     single = np.zeros(total, np.bool_)
     runs = 0
     low = 0
@@ -82,20 +95,31 @@ def _runs(first, second, weight, x, y, heaviest, farthest):
         high = low + 1
         while (
             high < total
-            and first[high] == first[high - 1] + 1
-            and second[high] == second[high - 1] + 1
+            and second[high] - first[high] == second[low] - first[low]
+            and 0 < first[high] - first[high - 1] <= LONGEST_GAP + 1
+            and first[high] // size == first[low] // size
             and abs(weight[high] - weight[low]) <= ALIKE * heaviest
             and abs(x[high] - x[low]) <= ALIKE * farthest
             and abs(y[high] - y[low]) <= ALIKE * farthest
         ):
             high += 1
         if high - low >= SHORTEST_RUN:
-            begin[runs], length[runs] = low, high - low
+            begin[runs], end[runs] = low, high
             runs += 1
         else:
             single[low:high] = True
         low = high
-    return begin[:runs], length[:runs], single
+    return begin[:runs], end[:runs], single
+
+
+@compiled_exactly
+def _there(first, begin, end, at, total):
+    """Along the runs, one after another, 1 where there is a bond and 0 where it is missing."""
+    found = np.zeros(total, np.uint8)
+    for r in range(begin.size):
+        for p in range(begin[r], end[r]):
+            found[at[r] + first[p] - first[begin[r]]] = 1
+    return found
 
 
 def build(
@@ -114,19 +138,33 @@ def build(
     if crack is not None:
         seen = _in_sight(x, y, first, second, crack)
         first, second = first[seen], second[seen]
-    first, second = neighbours.sorted_by_offset(first, second, x.size)
+    size = neighbours.block_size(first, second)
+    first, second = neighbours.sorted_by_offset(first, second, x.size, size)
     normalisation = shape.normalisation(smoothing_length)
     weight, along, across = _weights(x, y, volume, first, second, shape, smoothing_length, normalisation)
     if not np.isfinite(weight).all():
         raise ValueError("two particles stand at the same place")
     heaviest = float(weight.max(initial=0.0))
-    begin, length, single = _runs(first, second, weight, along, across, heaviest, support)
+    begin, end, single = _runs(first, second, weight, along, across, heaviest, support, size)
+    start = first[begin].astype(np.int64)
+    length = first[end - 1] - start + 1
+    at = np.cumsum(length) - length
     return Bonds(
-        first[begin].astype(np.int64),
-        (second[begin] - first[begin]).astype(np.int64),
-        length.copy(),
-        *(values[begin] for values in (weight, along, across)),
-        *(values[single] for values in (first, second, weight, along, across)),
+        start=start,
+        offset=second[begin] - start,
+        length=length,
+        at=at,
+        there=_there(first, begin, end, at, int(length.sum())),
+        run_weight=weight[begin],
+        run_x=along[begin],
+        run_y=across[begin],
+        first=first[single],
+        second=second[single],
+        weight=weight[single],
+        x=along[single],
+        y=across[single],
+        run_begin=pair_blocks.begins(start, size, x.size),
+        single_begin=pair_blocks.begins(first[single], size, x.size),
     )
 
 
@@ -142,14 +180,15 @@ class Pairs(NamedTuple):
 
 def as_pairs(bonds: Bonds) -> Pairs:
     """All bonds one by one, those of runs first."""
-    along = np.arange(bonds.length.sum()) - np.repeat(
-        np.cumsum(bonds.length) - bonds.length, bonds.length
-    )
+    along = np.arange(bonds.there.size) - np.repeat(bonds.at, bonds.length)
     first = np.repeat(bonds.start, bonds.length) + along
-    return Pairs(
-        np.concatenate((first, bonds.first)),
-        np.concatenate((first + np.repeat(bonds.offset, bonds.length), bonds.second)),
-        np.concatenate((np.repeat(bonds.run_weight, bonds.length), bonds.weight)),
-        np.concatenate((np.repeat(bonds.run_x, bonds.length), bonds.x)),
-        np.concatenate((np.repeat(bonds.run_y, bonds.length), bonds.y)),
+    there = bonds.there.astype(bool)
+    runs = (
+        first,
+        first + np.repeat(bonds.offset, bonds.length),
+        np.repeat(bonds.run_weight, bonds.length),
+        np.repeat(bonds.run_x, bonds.length),
+        np.repeat(bonds.run_y, bonds.length),
     )
+    singles = (bonds.first, bonds.second, bonds.weight, bonds.x, bonds.y)
+    return Pairs(*(np.concatenate((r[there], s)) for r, s in zip(runs, singles, strict=True)))

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sphstudy.compilation import compiled_exactly, compiled_exactly_inner
+from sphstudy.sph import pair_blocks
 from sphstudy.sph.crack import HIDDEN, IN_DOUBT, Crack, line_of_sight, outlook, visible
 
 SHORTEST_RUN = 8
@@ -26,7 +27,7 @@ LONGEST_GAP = 8
 """A run bridges gaps up to this many pairs: cheaper than starting another one."""
 
 BLOCK = 4096
-"""Runs are ordered by blocks of so many particles, so that one block's data stays in cache."""
+"""Pairs are ordered by blocks of at least so many particles, so that one block's data stays in cache."""
 
 
 class Neighbours(NamedTuple):
@@ -34,8 +35,9 @@ class Neighbours(NamedTuple):
 
     Of the singles, the first `singles[0]` are in force; `look` appends watched pairs to the lasting ones
     as long as they see each other past the segments watched_low to watched_high of the crack.
-    `total`: pairs in all, without those that only bridge gaps. `skin` (m), and `built_x`, `built_y` [N],
-    the positions (m) for which the list was built: how long it is good.
+    Block b (sph.pair_blocks) holds the runs and lasting singles from run_begin[b], single_begin[b] up to
+    the next block's. `total`: pairs in all, without those that only bridge gaps. `skin` (m), and
+    `built_x`, `built_y` [N], the positions (m) for which the list was built: how long it is good.
     """
 
     start: np.ndarray
@@ -48,6 +50,8 @@ class Neighbours(NamedTuple):
     watched_second: np.ndarray
     watched_low: np.ndarray
     watched_high: np.ndarray
+    run_begin: np.ndarray
+    single_begin: np.ndarray
     total: int
     skin: float
     built_x: np.ndarray
@@ -138,18 +142,23 @@ def _judge(first, second, x, y, margin, crack):
     return lasting, watched, low, high
 
 
+def block_size(first: np.ndarray, second: np.ndarray) -> int:
+    """Particles of a block: no pair reaches farther than into the next one."""
+    return max(BLOCK, 1 + int((second - first).max(initial=0)))
+
+
 @compiled_exactly
-def sorted_by_offset(first, second, count):
-    """The pairs ordered by (block of i, j - i, i): stable counting sort within each block."""
+def sorted_by_offset(first, second, count, size):
+    """The pairs ordered by (block of `size` i, j - i, i): stable counting sort within each block."""
     total = first.size
     ordered_first, ordered_second = np.empty_like(first), np.empty_like(second)
     fill = np.empty(count + 1, np.int64)
     low = 0
     while low < total:
-        block = first[low] // BLOCK
+        block = first[low] // size
         high = low
         widest = 0
-        while high < total and first[high] // BLOCK == block:
+        while high < total and first[high] // size == block:
             widest = max(widest, second[high] - first[high])
             high += 1
         for d in range(widest + 2):
@@ -168,11 +177,15 @@ def sorted_by_offset(first, second, count):
 
 
 @compiled_exactly_inner
-def _bridges(x, y, reach, first, second, p):
-    """Whether a run may go on from pair p to pair p + 1: same offset, nothing within reach skipped."""
+def _bridges(x, y, reach, first, second, p, size):
+    """Whether a run may go on from pair p to pair p + 1: same block and offset, nothing within reach
+    skipped.
+    """
     offset = second[p] - first[p]
     gap = first[p + 1] - first[p] - 1
     if second[p + 1] - first[p + 1] != offset or not 0 <= gap <= LONGEST_GAP:
+        return False
+    if first[p + 1] // size != first[p] // size:
         return False
     for i in range(first[p] + 1, first[p + 1]):
         j = i + offset
@@ -182,7 +195,7 @@ def _bridges(x, y, reach, first, second, p):
 
 
 @compiled_exactly
-def _runs(x, y, reach, first, second):
+def _runs(x, y, reach, first, second, size):
     """Runs of the sorted pairs: start, offset, length, and a mask of the pairs that are in none."""
     total = first.size
     start = np.empty(total // SHORTEST_RUN + 1, np.int64)
@@ -193,7 +206,7 @@ def _runs(x, y, reach, first, second):
     low = np.int64(0)
     while low < total:
         last = low
-        while last + 1 < total and _bridges(x, y, reach, first, second, last):
+        while last + 1 < total and _bridges(x, y, reach, first, second, last, size):
             last += 1
         if last + 1 - low >= SHORTEST_RUN:
             start[runs] = first[low]
@@ -221,8 +234,9 @@ def build(x: np.ndarray, y: np.ndarray, support: float, skin: float, crack: Crac
         lasting, watched, low, high = _judge(first, second, x, y, skin, crack)
         watched_pairs = (first[watched], second[watched], low[watched], high[watched])
         first, second = first[lasting], second[lasting]
-    first, second = sorted_by_offset(first, second, x.size)
-    start, offset, length, single = _runs(x, y, reach, first, second)
+    size = block_size(first, second)
+    first, second = sorted_by_offset(first, second, x.size, size)
+    start, offset, length, single = _runs(x, y, reach, first, second, size)
     return Neighbours(
         start.copy(),
         offset.copy(),
@@ -231,6 +245,8 @@ def build(x: np.ndarray, y: np.ndarray, support: float, skin: float, crack: Crac
         np.concatenate((second[single], watched_pairs[1])),
         np.array([np.count_nonzero(single)]),
         *watched_pairs,
+        pair_blocks.begins(start, size, x.size),
+        pair_blocks.begins(first[single], size, x.size),
         first.size + watched_pairs[0].size,
         skin,
         x.copy(),

@@ -1,5 +1,7 @@
 """Sums over pairs: the smoothed velocity of XSPH, and the forces and strain rates of (2.24) to (2.16).
 
+They go block by block, even blocks first (sph.pair_blocks), on several threads unless `parallel` is None.
+
 Each sum works in batches: the pair terms go to a small buffer that stays in the innermost cache
 (`_..._terms`, the physics), then they are added to both particles. A run's batch lies in contiguous
 memory and vectorises; singles are gathered into the same shape first. A term whose parameter is None
@@ -9,10 +11,13 @@ is not compiled, and pair data that only it needs is not allocated.
 from typing import NamedTuple
 
 import numpy as np
+from numba import get_thread_id, prange
 
-from sphstudy.compilation import compiled_inner
+from sphstudy.compilation import compiled_inner, compiled_parallel
 from sphstudy.sph import kernel, viscosity
-from sphstudy.sph.artificial_stress import closeness
+from sphstudy.sph.artificial_stress import ArtificialStress, closeness
+from sphstudy.sph.kernel import Kernel
+from sphstudy.sph.viscosity import Viscosity
 
 # Rows of the pair data, what the loops over pairs read of each particle; U, V: ṽ, SPECIFIC: 1/ρ.
 # Then, if the model has viscosity, the sound speed; then, if it has artificial stress, R.
@@ -23,12 +28,27 @@ BATCH = 256
 
 
 class Workspace(NamedTuple):
-    """Arrays that evaluations reuse: pair data, sums over pairs, one batch of terms and indices."""
+    """Arrays that evaluations reuse: pair data, sums over pairs; for each thread a batch of terms and of
+    gathered pair data. parallel: None on one thread, and then nothing is compiled for more.
+    """
 
     pair_data: np.ndarray
     sums: np.ndarray
     terms: np.ndarray
     gathered: np.ndarray
+    parallel: bool | None
+
+
+class PairTerms(NamedTuple):
+    """The part of a model that pair terms read. Numba hands no tuple within a tuple to its threads, so
+    each of them puts these together again.
+    """
+
+    kernel: Kernel
+    smoothing_length: float
+    normalisation: float
+    viscosity: Viscosity | None
+    artificial: ArtificialStress | None
 
 
 @compiled_inner
@@ -191,23 +211,12 @@ def _gather(data, rows, pairs, low, count, gathered):
 
 
 @compiled_inner
-def sum_smoothing(model, pairs, work):
-    """Row 0, 1 of the sums: Σ_j m_j (v_j - v_i) W_ij / ((ρ_i + ρ_j)/2)."""
-    data, sums, terms, gathered = work.pair_data, work.sums, work.terms, work.gathered
+def _smooth_singles(model, pairs, work, thread, begin, end):
+    data, sums, terms, gathered = work.pair_data, work.sums, work.terms[thread], work.gathered[thread]
     mass = data[MASS]
-    sums[:2] = 0.0
-    for r in range(pairs.start.size):
-        for low in range(0, pairs.length[r], BATCH):
-            count = min(BATCH, pairs.length[r] - low)
-            i0 = pairs.start[r] + low
-            j0 = i0 + pairs.offset[r]
-            _smoothing_terms(model, data, i0, j0, count, terms)
-            _add_smoothing(sums, mass[j0 : j0 + count], terms, 1.0, i0, count)
-            _add_smoothing(sums, mass[i0 : i0 + count], terms, -1.0, j0, count)
     left, right = np.int64(0), np.int64(BATCH)  # as literals they would compile the terms twice
-    singles = pairs.singles[0]
-    for low in range(0, singles, BATCH):
-        count = min(BATCH, singles - low)
+    for low in range(begin, end, BATCH):
+        count = min(BATCH, end - low)
         _gather(data, RHO + 1, pairs, low, count, gathered)
         _smoothing_terms(model, gathered, left, right, count, terms)
         for k in range(count):
@@ -218,24 +227,50 @@ def sum_smoothing(model, pairs, work):
 
 
 @compiled_inner
-def sum_momentum(model, pairs, work):
-    """All six sums of the momentum pass."""
-    data, sums, terms, gathered = work.pair_data, work.sums, work.terms, work.gathered
-    mass, specific = data[MASS], data[SPECIFIC]
-    sums[:] = 0.0
-    for r in range(pairs.start.size):
+def _smooth_block(model, pairs, work, thread, block):
+    data, sums, terms = work.pair_data, work.sums, work.terms[thread]
+    mass = data[MASS]
+    for r in range(pairs.run_begin[block], pairs.run_begin[block + 1]):
         for low in range(0, pairs.length[r], BATCH):
             count = min(BATCH, pairs.length[r] - low)
             i0 = pairs.start[r] + low
             j0 = i0 + pairs.offset[r]
-            i1, j1 = i0 + count, j0 + count
-            _momentum_terms(model, data, i0, j0, count, terms)
-            _add_momentum(sums, mass[j0:j1], specific[j0:j1], terms, 1.0, i0, count)
-            _add_momentum(sums, mass[i0:i1], specific[i0:i1], terms, -1.0, j0, count)
+            _smoothing_terms(model, data, i0, j0, count, terms)
+            _add_smoothing(sums, mass[j0 : j0 + count], terms, 1.0, i0, count)
+            _add_smoothing(sums, mass[i0 : i0 + count], terms, -1.0, j0, count)
+    begin, end = pairs.single_begin[block], pairs.single_begin[block + 1]
+    _smooth_singles(model, pairs, work, thread, begin, end)
+
+
+@compiled_parallel
+def _smooth_in_parallel(shape, length, normalisation, pairs, work, parity):
+    for half in prange((pairs.run_begin.size - parity) // 2):
+        terms = PairTerms(shape, length, normalisation, None, None)
+        _smooth_block(terms, pairs, work, get_thread_id(), 2 * half + parity)
+
+
+@compiled_inner
+def sum_smoothing(parallel, model, pairs, work):
+    """Row 0, 1 of the sums: Σ_j m_j (v_j - v_i) W_ij / ((ρ_i + ρ_j)/2)."""
+    work.sums[:2] = 0.0
+    for parity in range(2):
+        if parallel is None:
+            for block in range(parity, pairs.run_begin.size - 1, 2):
+                _smooth_block(model, pairs, work, 0, block)
+        else:
+            _smooth_in_parallel(
+                model.kernel, model.smoothing_length, model.normalisation, pairs, work, parity
+            )
+    _smooth_singles(model, pairs, work, 0, pairs.single_begin[-1], pairs.singles[0])
+
+
+@compiled_inner
+def _momentum_of_singles(model, pairs, work, thread, begin, end):
+    data, sums, terms, gathered = work.pair_data, work.sums, work.terms[thread], work.gathered[thread]
+    mass, specific = data[MASS], data[SPECIFIC]
     left, right = np.int64(0), np.int64(BATCH)  # as literals they would compile the terms twice
-    singles = pairs.singles[0]
-    for low in range(0, singles, BATCH):
-        count = min(BATCH, singles - low)
+    for low in range(begin, end, BATCH):
+        count = min(BATCH, end - low)
         _gather(data, data.shape[0], pairs, low, count, gathered)
         _momentum_terms(model, gathered, left, right, count, terms)
         for k in range(count):
@@ -249,3 +284,49 @@ def sum_momentum(model, pairs, work):
             for row in range(3):
                 sums[3 + row, i] += mass[j] * specific[j] * terms[2 + row, k]
                 sums[3 + row, j] += mass[i] * specific[i] * terms[2 + row, k]
+
+
+@compiled_inner
+def _momentum_of_block(model, pairs, work, thread, block):
+    data, sums, terms = work.pair_data, work.sums, work.terms[thread]
+    mass, specific = data[MASS], data[SPECIFIC]
+    for r in range(pairs.run_begin[block], pairs.run_begin[block + 1]):
+        for low in range(0, pairs.length[r], BATCH):
+            count = min(BATCH, pairs.length[r] - low)
+            i0 = pairs.start[r] + low
+            j0 = i0 + pairs.offset[r]
+            i1, j1 = i0 + count, j0 + count
+            _momentum_terms(model, data, i0, j0, count, terms)
+            _add_momentum(sums, mass[j0:j1], specific[j0:j1], terms, 1.0, i0, count)
+            _add_momentum(sums, mass[i0:i1], specific[i0:i1], terms, -1.0, j0, count)
+    begin, end = pairs.single_begin[block], pairs.single_begin[block + 1]
+    _momentum_of_singles(model, pairs, work, thread, begin, end)
+
+
+@compiled_parallel
+def _momentum_in_parallel(shape, length, normalisation, viscous, artificial, pairs, work, parity):
+    for half in prange((pairs.run_begin.size - parity) // 2):
+        terms = PairTerms(shape, length, normalisation, viscous, artificial)
+        _momentum_of_block(terms, pairs, work, get_thread_id(), 2 * half + parity)
+
+
+@compiled_inner
+def sum_momentum(parallel, model, pairs, work):
+    """All six sums of the momentum pass."""
+    work.sums[:] = 0.0
+    for parity in range(2):
+        if parallel is None:
+            for block in range(parity, pairs.run_begin.size - 1, 2):
+                _momentum_of_block(model, pairs, work, 0, block)
+        else:
+            _momentum_in_parallel(
+                model.kernel,
+                model.smoothing_length,
+                model.normalisation,
+                model.viscosity,
+                model.artificial,
+                pairs,
+                work,
+                parity,
+            )
+    _momentum_of_singles(model, pairs, work, 0, pairs.single_begin[-1], pairs.singles[0])

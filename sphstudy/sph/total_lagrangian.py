@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sphstudy.compilation import compiled, compiled_exactly, compiled_inner
-from sphstudy.sph import bonds, constitutive, viscosity
+from sphstudy.sph import bond_sums, bonds, constitutive, viscosity
 from sphstudy.sph.bonds import Bonds
 from sphstudy.sph.constitutive import Law
 from sphstudy.sph.constraints import Constraints
@@ -52,10 +52,15 @@ class Model(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Arrays that evaluations reuse: deformation gradients F [4, N] and A [4, N]."""
+    """Arrays that evaluations reuse: deformation gradients F [4, N], A [4, N], terms of each thread.
+
+    parallel: None on one thread, and then nothing is compiled for more.
+    """
 
     gradient: np.ndarray
     flux: np.ndarray
+    terms: np.ndarray
+    parallel: bool | None
 
 
 def model(
@@ -123,53 +128,20 @@ def correction(bonded: Bonds, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return np.stack((yy, -xy, xx)) / determinant
 
 
-def workspace(count: int) -> Workspace:
-    """Workspace for `count` particles."""
-    return Workspace(np.zeros((4, count)), np.zeros((4, count)))
-
-
-@compiled_inner
-def _add_gradient(x, y, s, d, count, wx, wy, at, into):
-    """Adds w x_ij ⊗ X_ij of a run to its particles from `at` on; the same for both ends of a bond."""
-    xi, xj, yi, yj = (
-        x[s : s + count],
-        x[s + d : s + d + count],
-        y[s : s + count],
-        y[s + d : s + d + count],
+def workspace(count: int, threads: int = 1) -> Workspace:
+    """Workspace for `count` particles, summed by `threads` threads."""
+    return Workspace(
+        gradient=np.zeros((4, count)),
+        flux=np.zeros((4, count)),
+        terms=bond_sums.buffers(threads),
+        parallel=True if threads > 1 else None,
     )
-    xx, xy, yx, yy = (
-        into[XX, at : at + count],
-        into[XY, at : at + count],
-        into[YX, at : at + count],
-        into[YY, at : at + count],
-    )
-    for k in range(count):
-        dx, dy = xj[k] - xi[k], yj[k] - yi[k]
-        xx[k] += dx * wx
-        xy[k] += dx * wy
-        yx[k] += dy * wx
-        yy[k] += dy * wy
 
 
 @compiled
-def corrected_gradient(bonded, correction, x, y, gradient):
+def corrected_gradient(parallel, bonded, correction, x, y, gradient):
     """Σ_j w_ij x_ij ⊗ X_ij L_i [4, N] of the positions x, y [N] (m) into `gradient`."""
-    b = bonded
-    gradient[:] = 0.0
-    for r in range(b.start.size):
-        s, d, count = b.start[r], b.offset[r], b.length[r]
-        wx, wy = b.run_weight[r] * b.run_x[r], b.run_weight[r] * b.run_y[r]
-        _add_gradient(x, y, s, d, count, wx, wy, s, gradient)
-        _add_gradient(x, y, s, d, count, wx, wy, s + d, gradient)
-    for p in range(b.first.size):
-        i, j = b.first[p], b.second[p]
-        dx, dy = x[j] - x[i], y[j] - y[i]
-        wx, wy = b.weight[p] * b.x[p], b.weight[p] * b.y[p]
-        for end in (i, j):
-            gradient[XX, end] += dx * wx
-            gradient[XY, end] += dx * wy
-            gradient[YX, end] += dy * wx
-            gradient[YY, end] += dy * wy
+    bond_sums.moments(parallel, bonded, x, y, gradient)
     for i in range(x.size):
         l_xx, l_xy, l_yy = correction[0, i], correction[1, i], correction[2, i]
         xx, xy, yx, yy = gradient[XX, i], gradient[XY, i], gradient[YX, i], gradient[YY, i]
@@ -180,14 +152,19 @@ def corrected_gradient(bonded, correction, x, y, gradient):
 
 
 @compiled
-def deformation_gradient(model, x, y, gradient):
+def deformation_gradient(parallel, model, x, y, gradient):
     """F_i [4, N] of the positions x, y [N] (m) into `gradient`; exact where the motion is affine."""
-    corrected_gradient(model.bonds, model.correction, x, y, gradient)
+    corrected_gradient(parallel, model.bonds, model.correction, x, y, gradient)
 
 
 @compiled_inner
 def _modulus(hourglass):
     return 0.0 if hourglass is None else hourglass
+
+
+@compiled_inner
+def _twice(hourglass):
+    return None if hourglass is None else 2.0 * hourglass
 
 
 @compiled
@@ -210,45 +187,13 @@ def _fluxes(model, work):
         flux[YY, i] = p_yx * l_xy + p_yy * l_yy - stiffness * yy
 
 
-@compiled_inner
-def _add_force(x, y, flux, s, d, count, wx, wy, stiffness, sign, force, at):
-    """Adds sign · w [(A_i + A_j) X_ij + 2 ζ µ x_ij] of a run to its particles from `at` on."""
-    e, f = s + d, s + count
-    xi, xj, yi, yj = x[s:f], x[e : e + count], y[s:f], y[e : e + count]
-    xx_i, xy_i, yx_i, yy_i = flux[XX, s:f], flux[XY, s:f], flux[YX, s:f], flux[YY, s:f]
-    xx_j, xy_j = flux[XX, e : e + count], flux[XY, e : e + count]
-    yx_j, yy_j = flux[YX, e : e + count], flux[YY, e : e + count]
-    force_x, force_y = force[0, at : at + count], force[1, at : at + count]
-    wx, wy, stiffness = sign * wx, sign * wy, sign * stiffness
-    for k in range(count):
-        force_x[k] += (xx_i[k] + xx_j[k]) * wx + (xy_i[k] + xy_j[k]) * wy + stiffness * (xj[k] - xi[k])
-        force_y[k] += (yx_i[k] + yx_j[k]) * wx + (yy_i[k] + yy_j[k]) * wy + stiffness * (yj[k] - yi[k])
-
-
 @compiled
 def force(model, x, y, work, force):
     """f_i = -∂U/∂x_i [2, N] (N/m) at the positions x, y [N] (m) into `force`; leaves F in `work`."""
-    deformation_gradient(model, x, y, work.gradient)
+    deformation_gradient(work.parallel, model, x, y, work.gradient)
     _fluxes(model, work)
-    b, flux = model.bonds, work.flux
-    stiffness = 2.0 * _modulus(model.hourglass)
-    force[:] = 0.0
-    for r in range(b.start.size):
-        s, d, count, w = b.start[r], b.offset[r], b.length[r], b.run_weight[r]
-        wx, wy = w * b.run_x[r], w * b.run_y[r]
-        _add_force(x, y, flux, s, d, count, wx, wy, w * stiffness, 1.0, force, s)
-        _add_force(x, y, flux, s, d, count, wx, wy, w * stiffness, -1.0, force, s + d)
-    for p in range(b.first.size):
-        i, j, w = b.first[p], b.second[p], b.weight[p]
-        wx, wy = w * b.x[p], w * b.y[p]
-        f_x = (flux[XX, i] + flux[XX, j]) * wx + (flux[XY, i] + flux[XY, j]) * wy
-        f_y = (flux[YX, i] + flux[YX, j]) * wx + (flux[YY, i] + flux[YY, j]) * wy
-        f_x += w * stiffness * (x[j] - x[i])
-        f_y += w * stiffness * (y[j] - y[i])
-        force[0, i] += f_x
-        force[1, i] += f_y
-        force[0, j] -= f_x
-        force[1, j] -= f_y
+    stiffness = _twice(model.hourglass)
+    bond_sums.forces(work.parallel, model.bonds, x, y, work.flux, stiffness, work.terms, force)
 
 
 @compiled_inner
@@ -263,7 +208,7 @@ def _misfit(gradient, i, dx, dy, x, y):
 def energies(model, x, y, work):
     """Σ V ψ(F) and the hourglass energy [J/m] at the positions x, y [N] (m); leaves F in `work`."""
     gradient = work.gradient
-    deformation_gradient(model, x, y, gradient)
+    deformation_gradient(work.parallel, model, x, y, gradient)
     strain = 0.0
     for i in range(x.size):
         strain += model.volume[i] * constitutive.energy_density(
@@ -275,9 +220,8 @@ def energies(model, x, y, work):
         for i in range(b.start[r], b.start[r] + b.length[r]):
             j = i + b.offset[r]
             for end in (i, j):
-                misfit += b.run_weight[r] * _misfit(
-                    gradient, end, x[j] - x[i], y[j] - y[i], b.run_x[r], b.run_y[r]
-                )
+                w = b.there[b.at[r] + i - b.start[r]] * b.run_weight[r]
+                misfit += w * _misfit(gradient, end, x[j] - x[i], y[j] - y[i], b.run_x[r], b.run_y[r])
     for p in range(b.first.size):
         i, j = b.first[p], b.second[p]
         for end in (i, j):
@@ -314,7 +258,7 @@ def add_viscosity(viscous, model, velocity_x, velocity_y, x, y, force):
     b = model.bonds
     for r in range(b.start.size):
         for i in range(b.start[r], b.start[r] + b.length[r]):
-            w = b.run_weight[r]
+            w = b.there[b.at[r] + i - b.start[r]] * b.run_weight[r]
             _add_viscous(viscous, model, velocity_x, velocity_y, x, y, i, i + b.offset[r], w, force)
     for p in range(b.first.size):
         i, j, w = b.first[p], b.second[p], b.weight[p]

@@ -54,14 +54,15 @@ class Model(NamedTuple):
     crack: Crack | None
 
 
-def workspace(model: Model, count: int) -> Workspace:
-    """Workspace for `count` particles; rows exist only for the terms that the model has."""
+def workspace(model: Model, count: int, threads: int = 1) -> Workspace:
+    """Workspace for `count` particles and so many threads; rows exist only for the terms in the model."""
     rows = pair_sums.SOUND + (model.viscosity is not None) + 3 * (model.artificial is not None)
     return Workspace(
         pair_data=np.zeros((rows, count)),
         sums=np.zeros((6, count)),
-        terms=np.zeros((5, pair_sums.BATCH)),
-        gathered=np.zeros((rows, 2 * pair_sums.BATCH)),
+        terms=np.zeros((threads, 5, pair_sums.BATCH)),
+        gathered=np.zeros((threads, rows, 2 * pair_sums.BATCH)),
+        parallel=True if threads > 1 else None,
     )
 
 
@@ -151,7 +152,7 @@ def _smoothed_velocity(xsph, model, state, pairs, amplitude_rate, work):
     _load_motion(model, state, data)
     if xsph is None:
         return
-    pair_sums.sum_smoothing(model, pairs, work)
+    pair_sums.sum_smoothing(work.parallel, model, pairs, work)
     for i in range(data.shape[1]):
         data[pair_sums.U, i] += xsph * sums[0, i]
         data[pair_sums.V, i] += xsph * sums[1, i]
@@ -184,7 +185,7 @@ def rates(model, state, pairs, amplitude_rate, work, rate):
     data, sums = work.pair_data, work.sums
     _smoothed_velocity(model.xsph, model, state, pairs, amplitude_rate, work)
     _load_stress(model, state, data)
-    pair_sums.sum_momentum(model, pairs, work)
+    pair_sums.sum_momentum(work.parallel, model, pairs, work)
     two_mu = 2.0 * model.shear_modulus
     for i in range(state.shape[1]):
         mean_rate = model.lame_modulus * (sums[3, i] + sums[4, i])

@@ -185,7 +185,9 @@ def test_bonds_one_by_one_are_those_of_the_runs_and_then_the_singles():
     found = Bonds(
         start=np.array([3, 0]),
         offset=np.array([4, 10]),
-        length=np.array([2, 3]),
+        length=np.array([2, 4]),
+        at=np.array([0, 2]),
+        there=np.array([1, 1, 1, 1, 0, 1], np.uint8),
         run_weight=np.array([0.5, 0.25]),
         run_x=np.array([1.0, -1.0]),
         run_y=np.array([2.0, 0.0]),
@@ -194,11 +196,13 @@ def test_bonds_one_by_one_are_those_of_the_runs_and_then_the_singles():
         weight=np.array([0.125]),
         x=np.array([3.0]),
         y=np.array([-2.0]),
+        run_begin=np.array([0, 2]),
+        single_begin=np.array([0, 1]),
     )
     assert found.total == 6
     pairs = as_pairs(found)
-    np.testing.assert_array_equal(pairs.first, [3, 4, 0, 1, 2, 7])
-    np.testing.assert_array_equal(pairs.second, [7, 8, 10, 11, 12, 9])
+    np.testing.assert_array_equal(pairs.first, [3, 4, 0, 1, 3, 7])
+    np.testing.assert_array_equal(pairs.second, [7, 8, 10, 11, 13, 9])
     np.testing.assert_array_equal(pairs.weight, [0.5, 0.5, 0.25, 0.25, 0.25, 0.125])
     np.testing.assert_array_equal(pairs.x, [1.0, 1.0, -1.0, -1.0, -1.0, 3.0])
     np.testing.assert_array_equal(pairs.y, [2.0, 2.0, 0.0, 0.0, 0.0, -2.0])

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from sphstudy.sph import constitutive, pair_sums, total_lagrangian
+from sphstudy.sph import bond_sums, constitutive, pair_sums
 from sphstudy.sph.material import Material
 from sphstudy.sph.updated_lagrangian import build_neighbours, rates, workspace
 from tests.sph.clouds import lattice_positions, model, random_state
@@ -26,7 +26,7 @@ def generated(rng, terms):
 
     fresh = numba.njit(fastmath=_FAST_MATH, error_model="numpy")(kernel)
     zero, count = np.int64(0), np.int64(8)
-    fresh(made, work.pair_data, zero, count, count, work.terms)
+    fresh(made, work.pair_data, zero, count, count, work.terms[0])
     return fresh.inspect_llvm(fresh.signatures[0])
 
 
@@ -88,11 +88,24 @@ def test_a_law_is_compiled_without_the_others():
 def test_loops_over_bonds_are_vectorised():
     values, one = np.zeros((4, 64)), 1.0
     x, y = values[0], values[1]
-    gradient = generated_from(
-        total_lagrangian._add_gradient, x, y, 0, 3, 32, one, one, 0, np.zeros((4, 64))
-    )
-    force = generated_from(
-        total_lagrangian._add_force, x, y, values, 0, 3, 32, one, one, one, one, np.zeros((2, 64)), 0
-    )
-    for code in (gradient, force):
-        assert re.search(r"fmul[a-z ]*<\d+ x double>", code)
+    there, sums, terms = np.ones(32, np.uint8), np.zeros((4, 64)), np.zeros((2, 64))
+    moments = generated_from(bond_sums._add_moments, x, y, 0, 3, 32, there, one, one, 0, sums)
+    for stiffness in (one, None):
+        force = generated_from(
+            bond_sums._force_terms, x, y, values, 0, 3, 32, there, one, one, stiffness, terms
+        )
+        for code in (moments, force):
+            assert re.search(r"fmul[a-z ]*<\d+ x double>", code)
+
+
+def test_without_hourglass_energy_its_force_is_not_compiled():
+    values, one = np.zeros((4, 64)), 1.0
+    there, terms = np.ones(32, np.uint8), np.zeros((2, 64))
+    code = {
+        stiffness: generated_from(
+            bond_sums._force_terms, *values[:2], values, 0, 3, 32, there, one, one, stiffness, terms
+        )
+        for stiffness in (one, None)
+    }
+    assert operations(code[None], "fsub[a-z ]*<\\d+ x double>") == 0
+    assert operations(code[one], "fsub[a-z ]*<\\d+ x double>") > 0

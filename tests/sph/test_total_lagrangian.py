@@ -82,7 +82,7 @@ def deformed(made, rng):
 def gradient(made, positions):
     """F [4, N]."""
     found = np.full((4, made.x.size), np.nan)
-    total_lagrangian.deformation_gradient(made, *positions, found)
+    total_lagrangian.deformation_gradient(None, made, *positions, found)
     return found
 
 

@@ -10,7 +10,8 @@ from sphstudy.sph.material import Material
 
 @dataclass(frozen=True)
 class Body:
-    """Particles in the reference configuration, stored row by row (x fastest).
+    """Particles in the reference configuration, stored row by row (x fastest); sums over pairs of
+    particles stored in random order take several times as long.
 
     x, y [N] (m); mass [N] per thickness (kg/m); spacing_x, spacing_y (m); tags: named masks [N].
     """

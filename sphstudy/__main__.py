@@ -107,6 +107,10 @@ def _run(arguments: list[str]) -> int:
         )
     if "dry run" in flags and not named:
         raise ConfigurationError(["--dry-run: goes with study"])
+    if named and overrides[:1] == ["speed"]:
+        from sphstudy.speed.command import speed_command
+
+        return speed_command(overrides[1:], "dry run" in flags)
     from sphstudy import batch
 
     force = "force" in flags

@@ -57,7 +57,7 @@ def reached(found: Measurements) -> list[Reached]:
             directed = bounds()[name].quantity == "directed_pair_time"
             time = rate.directed_pair_time if directed else rate.pair_time
             strict = time * rate.interacting_pair_time / rate.pair_time
-            remark = f"{strict:.3g} ns counting pairs within the support only"
+            remark = f"{strict:.3g} ns if only pairs within the support count"
             rows.append((name, Reached(rate.case.label, bounds()[name], time, remark)))
     flat = flatness(found).get(("tl", PERTURBED))
     if flat is not None:

@@ -17,7 +17,7 @@ from sphstudy.speed.settings import Settings
 
 
 def dataset(found: Measurements, settings: Settings) -> xr.Dataset:
-    """All measurements: dimensions rate, scaling, start, run, bound, part and flat, each if it has any."""
+    """All measurements: dimensions rate, scaling, start, run, bound, part, flat, if it has any."""
     flat = list(flatness(found).items())
     tables: dict[str, tuple[Sequence[Any], tuple[Column, ...], list[str]]] = {
         "rate": (found.rates, RATES, [r.case.label for r in found.rates]),

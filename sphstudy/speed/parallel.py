@@ -23,6 +23,9 @@ from sphstudy.speed.interleave import Stepper, interleaved
 THREADS = "solve.threads"
 """The setting that shares one run among threads."""
 
+CONTROL_SECONDS = 1.0
+"""Of the control beside sweeps, on one core."""
+
 
 @dataclass(frozen=True)
 class Scaling:
@@ -120,17 +123,15 @@ def processes(hydra: Session, settings: tuple[str, ...], jobs: int, rounds: int)
     with tempfile.TemporaryDirectory() as folder:
         choices = [[*settings, f"seed={k}", f"results={folder}"] for k in range(jobs)]
 
-        def sweep(count: int) -> None:
+        def sweep(count: int, first: int = jobs) -> None:
             setup_globals()
             chosen = [f"hydra.launcher.n_jobs={count}", f"results={folder}"]
-            hydra.launcher(task, chosen).launch(choices, initial_job_idx=0)
+            hydra.launcher(task, chosen).launch(choices[:first], initial_job_idx=0)
 
-        # The first sweep starts the workers, and has everything compiled.
-        sweep(1)
+        # Compiled once, then the workers are started: neither counts.
+        sweep(1, 1)
         sweep(2)
-        begun = time.perf_counter()
-        sweep(1)
-        control = Control(time.perf_counter() - begun)
+        control = Control(CONTROL_SECONDS)
         label = f"{jobs} runs, {' '.join(settings)}"
         both = compared(
             label, "processes", lambda: sweep(1), lambda: sweep(2), control, rounds, "two processes"

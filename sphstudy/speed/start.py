@@ -27,7 +27,7 @@ class Start:
     peak_memory: float
 
 
-def starts(repeats: int) -> list[Start]:
+def from_empty_cache(repeats: int) -> list[Start]:
     """The plate at n = 9 with an empty cache, once a method, then with what that has left, in turns."""
     with tempfile.TemporaryDirectory() as folder:
         cold = [_start(method, 9, True, f"{folder}/{method}") for method in METHODS]

@@ -47,7 +47,7 @@ def print_tables(found: xr.Dataset) -> None:
     _print("one worker over two, wall time", found, "scaling", _SCALINGS)
     _print("new processes until their first step", found, "start", _STARTS)
     _print("whole runs", found, "run", {"run_outcome": "outcome", "run_time": "CPU (s)"})
-    _print(f"bounds ({found.attrs['bound_source']})", found, "bound", _BOUNDS)
+    _print(f"measured beside {found.attrs['bound_source']}", found, "bound", _BOUNDS)
     _print("what this took", found, "part", _PARTS)
     if found.attrs["remarks"]:
         print(found.attrs["remarks"])

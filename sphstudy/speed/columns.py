@@ -45,7 +45,7 @@ STARTS: tuple[Column, ...] = (
     ("load_time", "s", "CPU time until Python and the program are loaded", "load_seconds"),
     ("first_step_time", "s", "CPU time of the process until the first step is made", "step_seconds"),
     ("start_compile_time", "s", "CPU time spent compiling until then", "compile_seconds"),
-    ("peak_memory", "byte", "peak memory of the process", "peak_memory"),
+    ("peak_memory", "Mbyte", "peak memory of the process", "peak_megabytes"),
 )
 
 RUNS: tuple[Column, ...] = (

@@ -66,15 +66,13 @@ def _rounds(found: Measurements) -> dict[str, Any]:
             "wall time of the control in each round",
         ),
     }
-    longest = max(
-        (len(s[-1]) if s.ndim > 1 else s.size for _, a, _ in several.values() for s in a), default=0
-    )
+    longest = max((a.shape[-1] for _, arrays, _ in several.values() for a in arrays), default=0)
     for name, (dimensions, arrays, long_name) in several.items():
         if arrays:
-            padded = [np.full((*a.shape[:-1], longest), np.nan) for a in arrays]
-            for target, source in zip(padded, arrays, strict=True):
-                target[..., : source.shape[-1]] = source
-            variables[name] = _variable((*dimensions, "round"), np.stack(padded), "s", long_name)
+            whole = np.full((len(arrays), *arrays[0].shape[:-1], longest), np.nan)
+            for row, taken in zip(whole, arrays, strict=True):
+                row[..., : taken.shape[-1]] = taken
+            variables[name] = _variable((*dimensions, "round"), whole, "s", long_name)
     if found.scalings:
         variables["workers"] = _variable("workers", [1, 2], "1", "threads or processes")
     return variables

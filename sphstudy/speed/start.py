@@ -26,6 +26,11 @@ class Start:
     compile_seconds: float
     peak_memory: float
 
+    @property
+    def peak_megabytes(self) -> float:
+        """Peak memory of the process [1e6 bytes]."""
+        return 1e-6 * self.peak_memory
+
 
 def from_empty_cache(repeats: int) -> list[Start]:
     """The plate at n = 9 with an empty cache, once a method, then with what that has left, in turns."""

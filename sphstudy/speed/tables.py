@@ -23,7 +23,7 @@ _STARTS = {
     "load_time": "loaded (s)",
     "first_step_time": "first step (s)",
     "start_compile_time": "compiling (s)",
-    "peak_memory": "peak memory (byte)",
+    "peak_memory": "peak memory (MB)",
 }
 _BOUNDS = {
     "bound_measured": "measured",

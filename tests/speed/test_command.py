@@ -42,7 +42,7 @@ def test_settings():
 def test_measures_writes_and_tells_what_it_took(tmp_path, monkeypatch, capsys):
     def made_up(hydra, settings, found):
         made = measurements()
-        found.rates, found.scalings, found.runs = made.rates, made.scalings, made.runs
+        found.rates, found.scalings, found.runs = made.rates[:8], made.scalings, made.runs
 
     monkeypatch.setitem(parts._MEASURE, "forms", made_up)
     command = ["study", "speed", "parts=forms", f"results={tmp_path}"]
@@ -52,12 +52,7 @@ def test_measures_writes_and_tells_what_it_took(tmp_path, monkeypatch, capsys):
     assert main(command) == 0
     assert "speed.nc" in capsys.readouterr().out
     stored = read_dataset(str(tmp_path / "speed" / "speed.nc"), tmp_path)
-    assert stored.sizes["rate"] == len(measurements().rates)
-    assert {p.name for p in (tmp_path / "speed").glob("*.p*")} == {
-        "growth.png",
-        "growth.pdf",
-        "terms.png",
-        "terms.pdf",
-    }
+    assert stored.sizes["rate"] == 8
+    assert stored.attrs["rounds"] == 5
     assert main([*command, "--dry-run"]) == 0
     assert "the last time" in capsys.readouterr().out

@@ -41,7 +41,10 @@ def growth(found: xr.Dataset) -> Figure:
             label=f"{one}, {_ARRANGEMENTS[str(kind)]}",
         )
     axes.set(
-        xscale="log", yscale="log", xlabel="particles", ylabel="CPU time per pair and evaluation (ns)"
+        xscale="log",
+        yscale="log",
+        xlabel="particles",
+        ylabel="CPU time per unordered pair and evaluation (ns)",
     )
     plain_logarithmic(axes.yaxis)
     legend_above(drawing, axes, columns=2)

@@ -39,17 +39,20 @@ class Stepper:
     """
 
     def __init__(self, system: Advancing, slice_seconds: float, clock: Clock = time.process_time):
-        """Takes two steps first, which compile and fetch all, then finds out how long one takes."""
-        self._system, self._done, self.wrong, self.steps = system, 0, "", 2
+        """Takes a step first, which compiles and fetches all, then finds out how long one takes."""
+        self._system, self._done, self.wrong, self.steps = system, 0, "", 1
         self()
-        self.steps, spent = 1, 0.0
+        spent = self._timed(clock)
         while spent < 0.1 * slice_seconds and not self.wrong:
-            begun = clock()
-            self()
-            spent = clock() - begun
-            if spent < 0.1 * slice_seconds:
-                self.steps *= 2
-        self.steps = max(1, round(self.steps * slice_seconds / spent)) if spent else 1
+            self.steps *= 2
+            spent = self._timed(clock)
+        if not self.wrong:
+            self.steps = max(1, round(self.steps * slice_seconds / spent))
+
+    def _timed(self, clock: Clock) -> float:
+        begun = clock()
+        self()
+        return clock() - begun
 
     def __call__(self) -> None:
         if not self.wrong:

@@ -5,6 +5,7 @@ import xarray as xr
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
+from sphstudy.speed.terms import term_costs
 from sphstudy.tables import console, number
 
 _RATES = {
@@ -59,34 +60,10 @@ def print_terms(found: xr.Dataset) -> None:
     if costs:
         headings = ("method", "term", "with", "off", "never there", "cost", "off / never there")
         table = Table(*headings, box=SIMPLE_HEAD, pad_edge=False, title="terms: ns per unordered pair")
-        for method, term, full, off, never in costs:
-            numbers = (full, off, never, full - never, off / never)
-            table.add_row(method, term, *(number(float(f"{value:.4g}")) for value in numbers))
+        for one in costs:
+            times = (one.full.median, one.off.median, one.never.median, one.cost, one.left)
+            table.add_row(one.method, one.term, *(number(time) for time in times))
         console().print(table)
-
-
-def term_costs(found: xr.Dataset) -> list[tuple[str, str, float, float, float]]:
-    """Method, term, time per pair [ns] with all terms, with this one off, with one that never had it.
-
-    Per pair that the full method holds: a crack hides some.
-    """
-    chosen = found.isel(rate=np.flatnonzero(found["rate_group"].values == "terms"))
-    rows = {}
-    for k in range(chosen.sizes["rate"]):
-        one = chosen.isel(rate=k)
-        rows[
-            str(one["rate_method"].item()), str(one["rate_term"].item()), str(one["rate_variant"].item())
-        ] = one
-    costs = []
-    for method, term, variant in rows:
-        if variant == "off":
-            full = rows[method, "", "all"]
-            scale = float(full["pair_time"] / full["step_time"])
-            off, never = (
-                scale * float(rows[method, term, which]["step_time"]) for which in ("off", "never")
-            )
-            costs.append((method, term, float(full["pair_time"]), off, never))
-    return costs
 
 
 def _print(title: str, found: xr.Dataset, dimension: str, columns: dict[str, str]) -> None:

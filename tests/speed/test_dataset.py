@@ -12,7 +12,8 @@ from sphstudy.speed.dataset import dataset
 from sphstudy.speed.figures import write_figures
 from sphstudy.speed.measurements import Measurements
 from sphstudy.speed.settings import Settings
-from sphstudy.speed.tables import print_tables, term_costs
+from sphstudy.speed.tables import print_tables
+from sphstudy.speed.terms import term_costs
 from sphstudy.store import read_dataset, write
 from tests.speed.synthetic import measurements, rate
 
@@ -71,9 +72,14 @@ def test_what_a_term_costs_is_read_from_steps_not_from_pairs():
         dataclasses.replace(r, pairs=11_000, seconds=1.1 * r.seconds) if r.case.term == "crack" else r
         for r in some.rates
     ]
-    costs = {row[:2]: row[2:] for row in term_costs(dataset(Measurements(rates=rates), Settings()))}
-    assert costs["thesis", "XSPH"] == pytest.approx((20.0, 15.0, 15.0))
-    assert costs["thesis", "crack"] == pytest.approx((20.0, 16.5, 16.5))
+    costs = {
+        (one.method, one.term): one for one in term_costs(dataset(Measurements(rates=rates), Settings()))
+    }
+    xsph, crack = costs["thesis", "XSPH"], costs["thesis", "crack"]
+    assert (xsph.full.median, xsph.never.median) == pytest.approx((20.0, 15.0))
+    assert (xsph.cost, xsph.left) == pytest.approx((5.0, 1.0))
+    assert (xsph.off.lower, xsph.off.upper) == pytest.approx((15.0 * 0.95, 15.0 * 1.25))
+    assert crack.cost == pytest.approx(20.0 - 16.5)
     assert ("tl", "hourglass") in costs
 
 

@@ -2,11 +2,12 @@
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from sphstudy.report.drawing import TEXT_WIDTH, plain_logarithmic
 from sphstudy.report.series import legend_above
-from sphstudy.speed.tables import term_costs
+from sphstudy.speed.terms import Time, term_costs
 
 _MARKERS = {"lattice": "o", "perturbed": "s", "shuffled": "^"}
 _COLOURS = {"thesis": "C0", "tl": "C1"}
@@ -54,23 +55,29 @@ def growth(found: xr.Dataset) -> Figure:
 def terms(found: xr.Dataset) -> Figure:
     """Time of a step per pair with each term switched off, and with a method that never had it.
 
-    The line: with all terms. `found`: dataset of speed.dataset.
+    Bars between the quartiles of the rounds. The line: with all terms. `found`: dataset of speed.dataset.
     """
     costs = term_costs(found)
-    methods = list(dict.fromkeys(row[0] for row in costs))
-    counts = [sum(row[0] == method for row in costs) for method in methods]
+    methods = list(dict.fromkeys(one.method for one in costs))
+    counts = [sum(one.method == method for one in costs) for method in methods]
     drawing = Figure(figsize=(TEXT_WIDTH, 1.6 + 0.3 * sum(counts)), layout="constrained")
     panels = drawing.subplots(len(methods), 1, squeeze=False, height_ratios=counts)[:, 0]
     for axes, method in zip(panels, methods, strict=True):
-        _, names, full, off, never = zip(*(row for row in costs if row[0] == method), strict=True)
-        places = np.arange(len(names))
-        axes.axvline(full[0], color="0.3", linestyle="--", label="all terms")
-        axes.hlines(places, never, full, color="0.75", linewidth=4.0, zorder=1)
-        axes.plot(never, places, "o", markersize=9, markerfacecolor="none", label="never there")
-        axes.plot(off, places, "x", color="C1", label="switched off")
-        axes.set_yticks(places, names)
-        axes.invert_yaxis()
-        axes.set(title=method, xlim=(0.0, 1.05 * max(*full, *off, *never)), ylim=(len(names) - 0.5, -0.5))
+        chosen = [one for one in costs if one.method == method]
+        full = chosen[0].full.median
+        axes.axvline(full, color="0.3", linestyle="--", label="all terms")
+        _times(axes, [one.never for one in chosen], -0.15, "o", "never there")
+        _times(axes, [one.off for one in chosen], 0.15, "s", "switched off")
+        axes.set_yticks(range(len(chosen)), [one.term for one in chosen])
+        axes.set(title=method, ylim=(len(chosen) - 0.5, -0.5))
+        axes.set_xlim(left=0.0)
     panels[-1].set_xlabel("CPU time per unordered pair and evaluation (ns)")
     legend_above(drawing, panels[0], columns=3)
     return drawing
+
+
+def _times(axes: Axes, times: list[Time], aside: float, marker: str, label: str) -> None:
+    """Medians in rows of their own, so far aside, with quartiles."""
+    median, lower, upper = np.array(times).T
+    rows = np.arange(len(times)) + aside
+    axes.errorbar(median, rows, xerr=(median - lower, upper - median), fmt=marker, label=label)

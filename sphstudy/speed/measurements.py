@@ -14,6 +14,9 @@ from sphstudy.speed.settings import PARTS, Settings
 from sphstudy.speed.start import Start
 from sphstudy.speed.whole_runs import WholeRun
 
+COPIES = 3
+"""Systems of each case, where they are small (rates.measured)."""
+
 
 @dataclass(frozen=True)
 class Part:
@@ -62,7 +65,7 @@ def _cpu() -> float:
 
 
 def _forms(hydra: Session, settings: Settings, found: Measurements) -> None:
-    found.rates += rates.measured(hydra, cases.forms(), settings.rounds, settings.slice_seconds)
+    found.rates += rates.measured(hydra, cases.forms(), settings.rounds, settings.slice_seconds, COPIES)
 
 
 def _growth(hydra: Session, settings: Settings, found: Measurements) -> None:
@@ -72,7 +75,7 @@ def _growth(hydra: Session, settings: Settings, found: Measurements) -> None:
 
 def _terms(hydra: Session, settings: Settings, found: Measurements) -> None:
     every = cases.terms(40 if settings.quick else 60)
-    found.rates += rates.measured(hydra, every, settings.rounds, settings.slice_seconds)
+    found.rates += rates.measured(hydra, every, settings.rounds, settings.slice_seconds, COPIES)
 
 
 def _threads(hydra: Session, settings: Settings, found: Measurements) -> None:

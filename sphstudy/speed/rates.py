@@ -15,7 +15,7 @@ NANOSECONDS = 1e9
 
 @dataclass(frozen=True)
 class Rate:
-    """A case as timed. seconds [rounds]: CPU time of a step in each round. wrong: why it stopped, or "".
+    """A case as timed. seconds [copies · rounds]: CPU time of a step. wrong: why it stopped, or "".
 
     pairs: unordered pairs that the system holds; interacting: those within the kernel's support, at the
     start; evaluations: of the right-hand side in a step; steps: of one turn.
@@ -71,28 +71,35 @@ class Rate:
         return self.particles / self.step_seconds
 
 
-def measured(hydra: Session, cases: Sequence[Case], rounds: int, slice_seconds: float) -> list[Rate]:
-    """Times the cases in turns, each turn about `slice_seconds` of CPU, one step at least.
+def measured(
+    hydra: Session, cases: Sequence[Case], rounds: int, slice_seconds: float, copies: int = 1
+) -> list[Rate]:
+    """Times the cases in turns, each round about `slice_seconds` of CPU a case, one step at least.
 
+    `copies`: systems of each case that share a round's time. Where arrays happen to lie in memory changes
+    the time of one and the same compiled code, by a fifth now and then, and the same in all rounds.
     Raises ConfigurationError if settings of a case are not valid.
     """
-    systems = [made(hydra, case) for case in cases]
-    steppers = [Stepper(one.system, slice_seconds) for one in systems]
-    seconds = interleaved(steppers, rounds)
-    return [
-        Rate(
-            case=case,
-            method=one.config.method.name,
-            scene=one.config.scene.name,
-            h=one.config.h,
-            n=one.config.n,
-            particles=one.particles,
-            pairs=one.system.pairs,
-            interacting=one.interacting,
-            evaluations=one.evaluations,
-            steps=stepper.steps,
-            seconds=taken / stepper.steps,
-            wrong=stepper.wrong,
+    systems = [made(hydra, case) for _ in range(copies) for case in cases]
+    steppers = [Stepper(one.system, slice_seconds / copies) for one in systems]
+    taken = interleaved(steppers, rounds)
+    found = []
+    for k, case in enumerate(cases):
+        one, alike = systems[k], range(k, len(systems), len(cases))
+        found.append(
+            Rate(
+                case=case,
+                method=one.config.method.name,
+                scene=one.config.scene.name,
+                h=one.config.h,
+                n=one.config.n,
+                particles=one.particles,
+                pairs=one.system.pairs,
+                interacting=one.interacting,
+                evaluations=one.evaluations,
+                steps=steppers[k].steps,
+                seconds=np.concatenate([taken[i] / steppers[i].steps for i in alike]),
+                wrong=next((steppers[i].wrong for i in alike if steppers[i].wrong), ""),
+            )
         )
-        for case, one, stepper, taken in zip(cases, systems, steppers, seconds, strict=True)
-    ]
+    return found

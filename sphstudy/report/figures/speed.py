@@ -45,7 +45,7 @@ def growth(found: xr.Dataset) -> Figure:
         xscale="log",
         yscale="log",
         xlabel="particles",
-        ylabel="CPU time per unordered pair and evaluation (ns)",
+        ylabel="CPU time per unordered pair\nand evaluation (ns)",
     )
     plain_logarithmic(axes.yaxis)
     legend_above(drawing, axes, columns=2)

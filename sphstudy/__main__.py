@@ -12,6 +12,7 @@ sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids 
   sphstudy -m scene=plate h=1.5,1.7 n=9,15,21      the same in another scene
   sphstudy study mode1                             a named study: run what is missing, compare, report
   sphstudy study thesis --dry-run                  what would run, why, and what it would cost
+  sphstudy study speed                             what pairs, terms, a start and a second core cost here
   sphstudy report mode1                            its figures and page again, from stored data
   sphstudy compare mode1                           against the stored reference; exit status 1 outside
   sphstudy compare mode1 printed                   against the values that the thesis prints
@@ -108,6 +109,10 @@ def _run(arguments: list[str]) -> int:
         )
     if "dry run" in flags and not named:
         raise ConfigurationError(["--dry-run: goes with study"])
+    if named and overrides[:1] == ["speed"]:
+        from sphstudy.speed.command import speed_command
+
+        return speed_command(overrides[1:], "dry run" in flags)
     from sphstudy import batch
 
     force = "force" in flags

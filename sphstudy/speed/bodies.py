@@ -85,14 +85,14 @@ def arranged(problem: Problem, arrangement: str, seed: int = 1) -> Problem:
     )
 
 
-def made(hydra: Session, case: Case) -> Made:
-    """The system of a case. Raises ConfigurationError if its settings are not valid."""
+def made(hydra: Session, case: Case, threads: int = 1) -> Made:
+    """The system of a case, on threads. Raises ConfigurationError if its settings are not valid."""
     (point,), _ = hydra.points(list(case.settings), sweep=False)
     config = point.config
     scene, method = scene_module(config.scene.kind), method_module(config.method.kind)
     problem = arranged(scene.build(config), case.arrangement)
     dt, integrator = explicit.time_step(problem, config, method), explicit.integrator(config, method)
-    system = method.system(problem, config, dt, integrator)
+    system = method.system(problem, config, dt, integrator, threads)
     if case.absent:
         none = dict.fromkeys(case.absent)
         extra = (integrator,) if isinstance(system, PotentialSystem) else ()

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
+import numba
 import numpy as np
 from hydra.core.utils import setup_globals
 from joblib.externals.loky import get_reusable_executor
@@ -19,9 +20,6 @@ from sphstudy.composition import Session
 from sphstudy.runner import task
 from sphstudy.speed.bodies import Case, made
 from sphstudy.speed.interleave import Stepper, interleaved
-
-THREADS = "solve.threads"
-"""The setting that shares one run among threads."""
 
 CONTROL_SECONDS = 1.0
 """Of the control beside sweeps, on one core."""
@@ -90,25 +88,22 @@ def compared(
 
 
 def threads(hydra: Session, n: int, rounds: int, slice_seconds: float) -> tuple[list[Scaling], str]:
-    """One and two threads on a plate with n rows; and what is to be said if this version has none."""
-    plate = ("scene=plate", f"n={n}")
-    (point,), _ = hydra.points(list(plate), sweep=False)
-    if THREADS not in point.config.flat():
-        return [], f"threads: not measured, this version has no setting {THREADS}"
+    """One and two threads on a plate with n rows; and what is to be said where there is one core only."""
+    if numba.config.NUMBA_NUM_THREADS < 2:  # type: ignore[attr-defined]
+        return [], "threads: not measured, there is one core"
+    numba.set_num_threads(2)
     control, found = Control(slice_seconds), []
     for method, h in (("thesis", 1.5), ("tl", 1.3)):
-        # Steps as many as one thread takes in a slice: both do the same work.
-        settings = (*plate, f"method={method}", f"h={h}")
+        settings = ("scene=plate", f"n={n}", f"method={method}", f"h={h}")
         pair = [
             Stepper(
-                made(
-                    hydra, Case(f"{method} on {count}", "threads", (*settings, f"{THREADS}={count}"))
-                ).system,
+                made(hydra, Case(f"{method} on {count}", "threads", settings), count).system,
                 slice_seconds,
                 time.perf_counter,
             )
             for count in (1, 2)
         ]
+        # Steps as many as one thread takes in a slice: both do the same work.
         pair[1].steps = pair[0].steps
         label = f"{method}, plate n={n}"
         found.append(compared(label, "threads", pair[0], pair[1], control, rounds, "two threads"))

@@ -1,9 +1,11 @@
 """One worker beside two: the order of turns, and what is said where a run cannot be shared."""
 
+import time
+
+import numba
 import numpy as np
 import pytest
 
-from sphstudy.composition import session
 from sphstudy.speed import parallel
 from sphstudy.speed.parallel import Control, Scaling, compared, threads
 
@@ -45,15 +47,29 @@ def test_a_speed_up_is_of_times_in_the_same_round():
     assert scaling.control_speedup == 1.0
 
 
-def test_a_version_without_threads_says_so_and_one_with_them_is_timed(monkeypatch):
-    with session() as hydra:
-        monkeypatch.setattr(parallel, "THREADS", "solve.no_such_setting")
-        found, remark = threads(hydra, 5, 1, 0.001)
-        assert not found
-        assert "this version has no setting solve.no_such_setting" in remark
-        # A setting that takes 1 and 2 stands for the number of threads.
-        monkeypatch.setattr(parallel, "THREADS", "seed")
-        found, remark = threads(hydra, 5, 1, 0.001)
+class Standing:
+    """A system that does not move, but takes its time."""
+
+    def __init__(self):
+        self.system = self
+
+    def advance(self, begin, end):
+        time.sleep(1e-4 * (end - begin))
+        return end, ""
+
+
+def test_one_core_is_said_and_on_two_each_method_runs_on_one_thread_and_on_two(monkeypatch):
+    asked = []
+    monkeypatch.setattr(
+        parallel, "made", lambda hydra, case, threads: asked.append((case.label, threads)) or Standing()
+    )
+    monkeypatch.setattr(numba, "set_num_threads", lambda count: None)
+    monkeypatch.setattr(numba.config, "NUMBA_NUM_THREADS", 2)
+    found, remark = threads(None, 5, 1, 0.001)
     assert not remark
     assert [scaling.label for scaling in found] == ["thesis, plate n=5", "tl, plate n=5"]
-    assert all((scaling.seconds > 0.0).all() for scaling in found)
+    assert asked == [("thesis on 1", 1), ("thesis on 2", 2), ("tl on 1", 1), ("tl on 2", 2)]
+    monkeypatch.setattr(numba.config, "NUMBA_NUM_THREADS", 1)
+    found, remark = threads(None, 5, 1, 0.001)
+    assert not found
+    assert "there is one core" in remark

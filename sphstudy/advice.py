@@ -228,7 +228,8 @@ def _verdict(choice: Choice) -> str:
     else:
         told = "not confirmed: there is no finer resolution with the same settings"
     if choice.luckier is not None:
-        told += f"\na cheaper point is within ({_percent(choice.luckier['error'], '+')}), by luck or unconfirmed"
+        error = _percent(choice.luckier["error"], "+")
+        told += f"\na cheaper point is within ({error}), by luck or unconfirmed"
     return told
 
 

@@ -60,6 +60,15 @@ def settings(columns: Iterable[str]) -> list[str]:
     return [name for name in columns if name in _CHOICES or "." in name]
 
 
+def label(row: pd.Series) -> str:
+    """Method, solver, h, n and time step of a point, for people."""
+    words = [f"{row['method']} {row['solve']}", f"h={row['h']:g}", f"n={row['n']}"]
+    if row["solve"] == "explicit":
+        key = {"frequency": "safety"}.get(row["solve.time_step"], "courant")
+        words.append(f"{key}={row[f'solve.{key}']:g}")
+    return ", ".join(words)
+
+
 def _series(found: pd.DataFrame) -> pd.Series:
     """A number for each group of points that agree in all but n (and in what is recorded)."""
     # Protocols may tie settings to n; when fields are kept changes no number.
@@ -130,19 +139,18 @@ def cheapest(found: pd.DataFrame, bound: float) -> Choice | None:
     """
     within = found[found["size"] <= bound]
     honest = within[within["assured"] <= bound]
-    for candidates, confirmed in ((honest[honest["finer"] > 0], True), (honest, False), (within, False)):
-        if not candidates.empty:
-            row = candidates.iloc[0]
-            break
-    else:
+    confirmed = honest[honest["finer"] > 0]
+    best = next((one for one in (confirmed, honest, within) if not one.empty), None)
+    if best is None:
         return None
+    row = best.iloc[0]
     cheaper = found[found["cpu_seconds"] < row["cpu_seconds"]]
     missing = cheaper[cheaper["size"] > bound]
     luckier = cheaper[cheaper["size"] <= bound]
     finer = found[(found["series"] == row["series"]) & (found["n"] > row["n"])].dropna(subset=["error"])
     return Choice(
         row,
-        confirmed,
+        not confirmed.empty,
         None if missing.empty else missing.iloc[-1],
         None if finer.empty else finer.sort_values("n").iloc[0],
         None if luckier.empty else luckier.iloc[0],

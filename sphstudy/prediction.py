@@ -149,65 +149,6 @@ def _from(measured: Iterable[Measurement], flat: dict[str, Any], work: Work) -> 
     parts, _ = nnls(matrix, np.append(weights, GUESS))
     return float(parts.sum())
 
-    def left_out(self) -> dict[str, tuple[float, float]]:
-        """Predicted and measured CPU seconds of each run, by its record, as all the others predict it;
-        NaN where none is like it.
-        """
-        found = {}
-        for one in self.measurements:
-            others = [m for m in self.measurements if m is not one]
-            found[one.name] = _from(others, one.flat, one.work), one.cpu_seconds
-        return found
-
-
-def rates(store: Store) -> Rates:
-    """What the runs in the store that are done took."""
-    return Rates(tuple(_measurements(store)))
-
-
-def _measurements(store: Store) -> Iterable[Measurement]:
-    here = provenance()["processor"]
-    for path in sorted(store.runs.glob("*.nc")):
-        try:
-            with FILES, netCDF4.Dataset(path) as run:
-                if STATUS[int(run["status"][...])] != "done":
-                    continue
-                config = validate(json.loads(run.configuration))
-                steps, particles, seconds = (
-                    float(run[name][...]) for name in ("steps", "particles", "cpu_seconds")
-                )
-                foreign = run.processor != here or (
-                    run.numerics_version != identity.numerics_version(config)
-                )
-        except (OSError, LookupError, AttributeError, ValueError):
-            continue  # not readable, or of another version: nothing to learn from
-        if steps > 0.0:
-            own = work(config, steps, particles)
-            yield Measurement(path.name, config.flat(), own, seconds, foreign)
-
-
-def _from(measured: Iterable[Measurement], flat: dict[str, Any], work: Work) -> float:
-    """CPU time of a run by what runs of the same method and solver took; NaN if there are none (s)."""
-    alike = [m for m in measured if all(m.flat[key] == flat[key] for key in ("method", "solve"))]
-    if not alike or not work.steps:
-        return math.nan if work.steps else 0.0
-    differences = np.array([_difference(m, flat, work) for m in alike])
-    weights = np.exp(differences.min() - differences)
-    taken = np.array([max(m.cpu_seconds, 1e-3) for m in alike])
-    terms = np.array([m.work.terms for m in alike]) / work.terms / taken[:, None]
-    # What few runs leave open follows the solver's own measure of cost.
-    rates = taken / [_usual(m.flat, m.work) for m in alike]
-    guess = _usual(flat, work) * math.exp(np.average(np.log(rates), weights=weights))
-    matrix = np.vstack([weights[:, None] * terms, np.full(terms.shape[1], GUESS / guess)])
-    parts, _ = nnls(matrix, np.append(weights, GUESS))
-    return float(parts.sum())
-
-
-def _usual(flat: dict[str, Any], work: Work) -> float:
-    """CPU time by the solver's own measure of cost and what a unit of it usually takes (s)."""
-    solver = solver_module(flat["solve"])
-    return solver.cost(work.particles, work.neighbours, work.steps) * solver.SECONDS_PER_COST
-
 
 def _difference(measured: Measurement, flat: dict[str, Any], work: Work) -> float:
     """How unlike a run is to one with these settings and this work: 0 for the same."""
@@ -224,3 +165,9 @@ def _difference(measured: Measurement, flat: dict[str, Any], work: Work) -> floa
 def _costs(key: str) -> bool:
     """Whether a setting may change what a step costs; steps themselves are counted."""
     return key.startswith("method.") or key in ("solve.integrator", "solve.time_step", "solve.count")
+
+
+def _usual(flat: dict[str, Any], work: Work) -> float:
+    """CPU time by the solver's own measure of cost and what a unit of it usually takes (s)."""
+    solver = solver_module(flat["solve"])
+    return solver.cost(work.particles, work.neighbours, work.steps) * solver.SECONDS_PER_COST

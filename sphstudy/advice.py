@@ -223,6 +223,7 @@ def _same(one: Any, other: Any) -> bool:
 def _verdict(choice: Choice) -> str:
     if choice.confirmed and choice.confirming is not None:
         told = f"confirmed: n={choice.confirming['n']} and all finer ones lie within as well"
+        told += ", though the sign changes" if choice.row["turns"] else ""
     elif choice.row["lucky"]:
         told = "lucky, not to be relied on: a finer resolution with the same settings is farther off"
     else:

@@ -59,7 +59,8 @@ def _row(bound: float, choice: Choice | None) -> list[Cell]:
 def standing(choice: Choice) -> str:
     """Whether the choice is to be relied on, in words."""
     if choice.confirmed:
-        return "confirmed by all finer resolutions"
+        turns = ", though the sign changes" if choice.row["turns"] else ""
+        return f"confirmed by all finer resolutions{turns}"
     if choice.row["lucky"]:
         return "lucky: a finer resolution is farther off"
     return "not confirmed: no finer resolution"

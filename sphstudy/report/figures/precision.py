@@ -30,9 +30,9 @@ _WITHIN = 0.3
 _HOW = (
     "Every point by its CPU time, compilation left out. Thin lines join resolutions n with all other "
     "settings the same; markers grow with n. Hollow: lucky, that is, a finer resolution with the same "
-    "settings has a larger error. Black steps: the Pareto front of points that a finer resolution confirms, "
-    "each with its (n, h̃), by the largest error of the point and of all finer ones. Crosses on the upper "
-    "edge: runs that diverged, at what they cost until then. Below and left is better."
+    "settings has a larger error. Black steps: the Pareto front of points that a finer resolution "
+    "confirms, each with its (n, h̃), by the largest error of the point and of all finer ones. Crosses on "
+    "the upper edge: runs that diverged, at what they cost until then. Below and left is better."
 )
 
 
@@ -125,8 +125,7 @@ def _work_precision(results: Results, scene: str, symbol: str, label: str) -> Fi
     failed = _failed(axes, found)
     for axis in (axes.xaxis, axes.yaxis):
         plain_logarithmic(axis)
-    compiling = found["compile_seconds"].max()
-    axes.set_title(f"compilation, once and apart: up to {compiling:.0f} s", loc="right", fontsize="small")
+    axes.set_title(_compilation(found), loc="right", fontsize="small")
     axes.set_title(f"${symbol}$ = {', '.join(map(str, sizes))}", loc="left", fontsize="small")
     kinds = dict.fromkeys(zip(found["method"], found["solve"], strict=True))
     handles = [
@@ -140,6 +139,12 @@ def _work_precision(results: Results, scene: str, symbol: str, label: str) -> Fi
     handles += [Line2D([], [], linestyle="none", marker="x", color="0.4", label="diverged")] * failed
     drawing.legend(handles=handles, loc="outside upper center", ncols=3)
     return drawing
+
+
+def _compilation(found: pd.DataFrame) -> str:
+    seconds = found["compile_seconds"].max()
+    told = f"up to {seconds:.0f} s" if seconds > 0.0 else "none, all compiled before"
+    return f"compilation, apart: {told}"
 
 
 def _draw(axes: Axes, rows: pd.DataFrame, sizes: list[int], look: dict[str, Any]) -> None:

@@ -27,7 +27,7 @@ OUTCOMES = ["done", "done", "done", "done", "diverged"]
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):
-    """A folder that holds a dataset of the study `precision`: three points of one series, two of another."""
+    """A folder with a dataset of the study `precision`: three points of one series, two of another."""
     with session() as hydra:
         configs = [p.config for grid in (MODES, STEPPED) for p in hydra.points(grid, sweep=True)[0]]
     metric = {"units": "1", "group": "metric", "long_name": "error of ω"}

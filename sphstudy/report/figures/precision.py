@@ -27,12 +27,15 @@ _LOOKS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
 _WITHIN = 0.3
 """How far a prediction may be off."""
 
+_LOWER = 0.92
+"""Points of the front are named if they lie below this share of the last that is."""
+
 _HOW = (
     "Every point by its CPU time, compilation left out. Thin lines join resolutions n with all other "
     "settings the same; markers grow with n. Hollow: lucky, that is, a finer resolution with the same "
     "settings has a larger error. Black steps: the Pareto front of points that a finer resolution "
-    "confirms, each with its (n, h̃), by the largest error of the point and of all finer ones. Crosses on "
-    "the upper edge: runs that diverged, at what they cost until then. Below and left is better."
+    "confirms, with (n, h̃), by the largest error of the point and of all finer ones. Crosses on the upper "
+    "edge: runs that diverged, at what they cost until then. Below and left is better."
 )
 
 
@@ -173,9 +176,13 @@ def _front(axes: Axes, best: pd.DataFrame) -> None:
     """Steps along the front, and the (n, h) of its points."""
     cost, error = best["cpu_seconds"].to_numpy(), PERCENT * best["assured"].to_numpy()
     axes.step(cost, error, where="post", color="black", linewidth=1.2, zorder=4)
+    last = np.inf
     for x, y, n, h in zip(cost, error, best["n"], best["h"], strict=True):
-        offset: dict[str, Any] = {"textcoords": "offset points", "fontsize": "x-small", "zorder": 5}
-        axes.annotate(f"({n}, {h:g})", (x, y), (-4, -4), ha="right", va="top", **offset)
+        # Names of points at nearly the same height would cover each other.
+        if y < _LOWER * last:
+            offset: dict[str, Any] = {"textcoords": "offset points", "fontsize": "x-small", "zorder": 5}
+            axes.annotate(f"({n}, {h:g})", (x, y), (-4, -4), ha="right", va="top", **offset)
+            last = y
 
 
 def _failed(axes: Axes, found: pd.DataFrame) -> bool:

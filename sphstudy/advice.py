@@ -190,8 +190,8 @@ class _Advice:
 
     def _compilation(self) -> None:
         compiling = self.points.get("compile_seconds", pd.Series(dtype=float)).max()
-        told = f"at most {_seconds(compiling)}" if compiling > 0.0 else "none, the cache was warm"
-        print(f"compiling, apart and once: {told} in these runs")
+        told = f"at most {_seconds(compiling)} in" if compiling > 0.0 else "all was compiled before"
+        print(f"compiling, apart and once: {told} these runs")
 
 
 def _limit(rows: pd.DataFrame) -> Extrapolation:
@@ -237,7 +237,7 @@ def _verdict(choice: Choice) -> str:
 def _evidence(choice: Choice) -> Iterator[tuple[str, pd.Series]]:
     """The points that the advice rests on, and as what."""
     for role, row in (
-        ("next cheaper, misses", choice.failed),
+        ("best of cheaper ones", choice.failed),
         ("cheaper, but", choice.luckier),
         ("advised", choice.row),
         ("next finer", choice.confirming),

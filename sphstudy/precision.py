@@ -119,8 +119,8 @@ def front(found: pd.DataFrame) -> pd.DataFrame:
 class Choice:
     """The cheapest point whose error is within a bound, and whether a finer one confirms it.
 
-    row: of the points. failed: the most expensive of the cheaper points, which misses the bound, and
-    confirming: the next finer of its series, both None if there are none. luckier: the cheapest point
+    row: of the points. failed: the best of the cheaper points, which all miss the bound, by assured error,
+    and confirming: the next finer of its series, both None if there are none. luckier: the cheapest point
     within the bound that a finer one contradicts, or that none confirms, if it is cheaper than this.
     """
 
@@ -151,7 +151,7 @@ def cheapest(found: pd.DataFrame, bound: float) -> Choice | None:
     return Choice(
         row,
         not confirmed.empty,
-        None if missing.empty else missing.iloc[-1],
+        None if missing.empty else missing.sort_values("assured").iloc[0],
         None if finer.empty else finer.sort_values("n").iloc[0],
         None if luckier.empty else luckier.iloc[0],
     )

@@ -55,7 +55,7 @@ def test_the_cheapest_with_the_points_it_rests_on(results, capsys):
     assert "error -0.4 %, 0.2 s of CPU time measured" in shown
     assert "confirmed: n=21" in shown
     lines = {line.partition("  ")[0].strip(): line for line in shown.splitlines()}
-    assert "n=9" in lines["next cheaper, misses"]
+    assert "n=9" in lines["best of cheaper ones"]
     assert "n=21" in lines["next finer"]
     assert "at most 7 s" in shown
 

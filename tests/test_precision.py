@@ -75,7 +75,7 @@ def test_the_front_takes_no_luck_and_nothing_unconfirmed(found):
         (0.1, "thesis-1.5-9", True, None, "thesis-1.5-15", None),
         (0.04, "thesis-1.5-15", True, "thesis-1.5-9", "thesis-1.5-21", None),
         (0.02, "tl-1.3-9", True, "thesis-1.5-9", "tl-1.3-15", "thesis-1.5-15"),
-        (0.001, "tl-1.3-21", False, "tl-1.5-15", None, "thesis-1.5-15"),
+        (0.001, "tl-1.3-21", False, "tl-1.3-15", None, "thesis-1.5-15"),
         (0.0005, "thesis-1.5-15", False, "thesis-1.5-9", "thesis-1.5-21", None),
     ],
 )

@@ -34,8 +34,8 @@ _HOW = (
     "Every point by its CPU time, compilation left out. Thin lines join resolutions n with all other "
     "settings the same; markers grow with n. Hollow: lucky, that is, a finer resolution with the same "
     "settings has a larger error. Black steps: the Pareto front of points that a finer resolution "
-    "confirms, with (n, h̃), by the largest error of the point and of all finer ones. Crosses on the upper "
-    "edge: runs that diverged, at what they cost until then. Below and left is better."
+    "confirms, with (n, h̃), by the largest error of the point and of all finer ones. Crosses on the "
+    "upper edge: runs that diverged, at what they cost until then. Below and left is better."
 )
 
 

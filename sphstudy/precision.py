@@ -119,8 +119,8 @@ def front(found: pd.DataFrame) -> pd.DataFrame:
 class Choice:
     """The cheapest point whose error is within a bound, and whether a finer one confirms it.
 
-    row: of the points. failed: the best of the cheaper points, which all miss the bound, by assured error,
-    and confirming: the next finer of its series, both None if there are none. luckier: the cheapest point
+    row: of the points. failed: the best, by assured error, of the cheaper points that miss the bound, and
+    confirming: the next finer of its series, both None if there are none. luckier: the cheapest point
     within the bound that a finer one contradicts, or that none confirms, if it is cheaper than this.
     """
 

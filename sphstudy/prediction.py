@@ -32,7 +32,7 @@ OTHER_SCENE = 2.0
 OTHER_ORIGIN = 4.0
 """Difference to a run of another version of the code, or on another processor."""
 
-GUESS = 0.2
+GUESS = 0.1
 """Weight of a guess by the solver's own measure of cost, that of the most similar run being 1."""
 
 

@@ -30,12 +30,16 @@ _WITHIN = 0.3
 _LOWER = 0.92
 """Points of the front are named if they lie below this share of the last that is."""
 
+_SEVERAL = 3
+"""Resolutions of a series whose h is told."""
+
 _HOW = (
     "Every point by its CPU time, compilation left out. Thin lines join resolutions n with all other "
-    "settings the same; markers grow with n. Hollow: lucky, that is, a finer resolution with the same "
-    "settings has a larger error. Black steps: the Pareto front of points that a finer resolution "
-    "confirms, with (n, h̃), by the largest error of the point and of all finer ones. Crosses on the "
-    "upper edge: runs that diverged, at what they cost until then. Below and left is better."
+    "settings the same, and end in h̃ where there are three or more; markers grow with n. Hollow: lucky, "
+    "that is, a finer resolution with the same settings has a larger error. Black: the Pareto front "
+    "of points that a finer resolution confirms, with (n, h̃), by the largest error of the point and of "
+    "all finer ones. Crosses on the upper edge: runs that diverged, at what they cost until then. Below "
+    "and left is better."
 )
 
 
@@ -157,6 +161,10 @@ def _draw(axes: Axes, rows: pd.DataFrame, sizes: list[int], look: dict[str, Any]
         axes.plot(
             chosen["cpu_seconds"], PERCENT * chosen["size"], color=look["color"], linewidth=0.6, alpha=0.5
         )
+        if len(chosen) >= _SEVERAL:
+            x, y = chosen["cpu_seconds"].iloc[-1], PERCENT * chosen["size"].iloc[-1]
+            style: dict[str, Any] = {"textcoords": "offset points", "fontsize": "x-small"}
+            axes.annotate(f"{chosen['h'].iloc[0]:g}", (x, y), (6, -3), color=look["color"], **style)
     for (n, lucky), chosen in rows.groupby(["n", "lucky"]):
         fill = (
             {"markerfacecolor": "white"}

@@ -29,6 +29,9 @@ or against the exact stress intensity.
 BOUNDS = (0.05, 0.01, 0.001, 0.0001)
 """Errors that a price is asked for."""
 
+CLEARLY = 1.1
+"""An error is lucky if that of a finer resolution is larger by more than this factor."""
+
 _CHOICES = ("scene", "method", "solve", "h", "n", "seed")
 
 
@@ -38,8 +41,9 @@ def points(table: pd.DataFrame, scene: str, metric: str | None = None) -> pd.Dat
     Beside the columns of the table: `error` (signed, NaN unless the run is done), `size` (its magnitude),
     `series` (number that points have in common that differ in n alone), `assured` (largest size among
     the point and all finer ones of its series), `finer` (how many of these there are), `lucky` (whether
-    one of them is larger than its own) and `turns` (whether the next finer has another sign). metric:
-    the error, if not that of ERRORS. Raises ConfigurationError if the scene has no error of its own.
+    one of them is clearly larger than its own) and `turns` (whether the next finer has another sign).
+    metric: the error, if not that of ERRORS. Raises ConfigurationError if the scene has no error of its
+    own.
     """
     if metric is None and scene not in ERRORS:
         raise ConfigurationError([f"scene={scene}: add metric=NAME; known are {', '.join(ERRORS)}"])
@@ -89,7 +93,7 @@ def _assured(found: pd.DataFrame) -> dict[str, pd.Series]:
             largest = max(largest, size)
             columns["assured"][row] = largest
             columns["finer"][row] = finer
-            columns["lucky"][row] = size < largest
+            columns["lucky"][row] = CLEARLY * size < largest
             columns["turns"][row] = sign * error < 0.0
             finer, sign = finer + 1, np.sign(error)
     return {

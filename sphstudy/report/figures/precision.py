@@ -156,15 +156,17 @@ def _compilation(found: pd.DataFrame) -> str:
 
 def _draw(axes: Axes, rows: pd.DataFrame, sizes: list[int], look: dict[str, Any]) -> None:
     """Points of one method and solver, joined where they differ in n alone."""
-    for _, chosen in rows.groupby("series"):
+    for number, chosen in rows.groupby("series"):
         chosen = chosen.sort_values("n")
         axes.plot(
             chosen["cpu_seconds"], PERCENT * chosen["size"], color=look["color"], linewidth=0.6, alpha=0.5
         )
         if len(chosen) >= _SEVERAL:
             x, y = chosen["cpu_seconds"].iloc[-1], PERCENT * chosen["size"].iloc[-1]
+            # Ends of neighbouring series may lie close together.
+            place = (6, -8 if number % 2 else 2)
             style: dict[str, Any] = {"textcoords": "offset points", "fontsize": "x-small"}
-            axes.annotate(f"{chosen['h'].iloc[0]:g}", (x, y), (6, -3), color=look["color"], **style)
+            axes.annotate(f"{chosen['h'].iloc[0]:g}", (x, y), place, color=look["color"], **style)
     for (n, lucky), chosen in rows.groupby(["n", "lucky"]):
         fill = (
             {"markerfacecolor": "white"}

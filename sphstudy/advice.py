@@ -16,7 +16,7 @@ from sphstudy.composition import Session, session
 from sphstudy.config import ConfigurationError
 from sphstudy.convergence import with_uncertainty
 from sphstudy.precision import Choice
-from sphstudy.prediction import Rates, prospect, rates
+from sphstudy.prediction import prospect, rates
 from sphstudy.report.text import setting
 from sphstudy.richardson import Extrapolation, extrapolate
 from sphstudy.store import Store, read_dataset
@@ -45,7 +45,7 @@ def advise_command(arguments: list[str]) -> int:
     dataset = _stored(name, folder)
     points = _chosen(table(dataset), options, name)
     with session() as hydra:
-        advice = _Advice(name, dataset, hydra, rates(Store(folder)), points)
+        advice = _Advice(name, dataset, hydra, Store(folder), points)
         return advice.give(bound, options["scene"], options.get("metric"))
 
 
@@ -112,9 +112,10 @@ class _Advice:
     """What is known: the points of a scene, what runs cost, and how to write a point's command."""
 
     def __init__(
-        self, name: str, dataset: xr.Dataset, hydra: Session, known: Rates, points: pd.DataFrame
+        self, name: str, dataset: xr.Dataset, hydra: Session, store: Store, points: pd.DataFrame
     ):
-        self.name, self.dataset, self.hydra, self.known, self.points = name, dataset, hydra, known, points
+        self.name, self.dataset, self.hydra, self.points = name, dataset, hydra, points
+        self.store, self.known = store, rates(store)
 
     def give(self, bound: float, scene: str, metric: str | None) -> int:
         """Prints the advice; 0 if a point reaches the error, else 1."""
@@ -137,9 +138,8 @@ class _Advice:
     def _told(self, row: pd.Series) -> str:
         words = command(row, self.hydra)
         config = self.hydra.points(shlex.split(words)[1:], sweep=False)[0][0].config
-        predicted = self.known.seconds(
-            config, prospect(config)[0], without=Store("").record_path(config).name
-        )
+        own = self.store.record_path(config).name
+        predicted = self.known.seconds(config, prospect(config)[0], without=own)
         return (
             f"  {words}\n\n"
             f"error {_percent(row['error'], '+')}, {_seconds(row['cpu_seconds'])} of CPU time measured, "

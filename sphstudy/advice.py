@@ -230,7 +230,7 @@ def _verdict(choice: Choice) -> str:
         told = "not confirmed: there is no finer resolution with the same settings"
     if choice.luckier is not None:
         error = _percent(choice.luckier["error"], "+")
-        told += f"\na cheaper point is within ({error}), by luck or unconfirmed"
+        told += f"\na cheaper point is within ({error}), but less to be relied on"
     return told
 
 

@@ -125,7 +125,7 @@ class Choice:
 
     row: of the points. failed: the best, by assured error, of the cheaper points that miss the bound, and
     confirming: the next finer of its series, both None if there are none. luckier: the cheapest point
-    within the bound that a finer one contradicts, or that none confirms, if it is cheaper than this.
+    within the bound if it is cheaper than this, but less to be relied on.
     """
 
     row: pd.Series
@@ -138,13 +138,14 @@ class Choice:
 def cheapest(found: pd.DataFrame, bound: float) -> Choice | None:
     """The cheapest of these points (see `points`) with an error within the bound.
 
-    Confirmed ones go before those that nothing confirms, these before those that a finer one contradicts.
-    None if there are none.
+    Confirmed ones whose sign does not change at the next finer one go first, then other confirmed ones,
+    then those that nothing confirms, last those that a finer one contradicts. None if there are none.
     """
     within = found[found["size"] <= bound]
     honest = within[within["assured"] <= bound]
     confirmed = honest[honest["finer"] > 0]
-    best = next((one for one in (confirmed, honest, within) if not one.empty), None)
+    steady = confirmed[~confirmed["turns"]]
+    best = next((one for one in (steady, confirmed, honest, within) if not one.empty), None)
     if best is None:
         return None
     row = best.iloc[0]

@@ -72,14 +72,14 @@ def test_the_front_takes_no_luck_and_nothing_unconfirmed(found):
 @pytest.mark.parametrize(
     ("bound", "record", "confirmed", "failed", "confirming", "luckier"),
     [
-        (0.1, "thesis-1.5-9", True, None, "thesis-1.5-15", None),
+        (0.1, "thesis-1.5-15", True, None, "thesis-1.5-21", "thesis-1.5-9"),
         (0.04, "thesis-1.5-15", True, "thesis-1.5-9", "thesis-1.5-21", None),
         (0.02, "tl-1.3-9", True, "thesis-1.5-9", "tl-1.3-15", "thesis-1.5-15"),
         (0.001, "tl-1.3-21", False, "tl-1.3-15", None, "thesis-1.5-15"),
         (0.0005, "thesis-1.5-15", False, "thesis-1.5-9", "thesis-1.5-21", None),
     ],
 )
-def test_confirmed_goes_before_unconfirmed_before_lucky(
+def test_the_more_reliable_goes_before_the_cheaper(
     found, bound, record, confirmed, failed, confirming, luckier
 ):
     choice = precision.cheapest(found, bound)
@@ -91,6 +91,12 @@ def test_confirmed_goes_before_unconfirmed_before_lucky(
         (choice.luckier, luckier),
     ):
         assert (None if point is None else point["record"]) == expected
+
+
+def test_an_error_that_changes_sign_is_taken_if_there_is_no_other(found):
+    choice = precision.cheapest(found.loc[["thesis-1.5-9", "thesis-1.5-21"]], 0.1)
+    assert choice.row["record"] == "thesis-1.5-9"
+    assert choice.confirmed
 
 
 def test_nothing_reaches_what_nothing_reaches(found):

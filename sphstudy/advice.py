@@ -130,7 +130,7 @@ class _Advice:
         else:
             print(f"{self._told(choice.row)}\n{_verdict(choice)}")
             self._print(list(_evidence(choice)))
-        if choice is None or not choice.confirmed:
+        if choice is None or not choice.confirmed or choice.row["turns"]:
             self._extrapolate(bound, metric)
         self._compilation()
         return 1 if choice is None else 0
@@ -216,8 +216,8 @@ def command(row: pd.Series, hydra: Session) -> str:
 
 
 def _same(one: Any, other: Any) -> bool:
-    """Whether two settings are equal; a table has NaN where a setting is null."""
-    return one == other or (other is None and isinstance(one, float) and math.isnan(one))
+    """Whether two settings are equal; a table has NaN where one is null."""
+    return one == other or (other is None and one != one)
 
 
 def _verdict(choice: Choice) -> str:

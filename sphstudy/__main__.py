@@ -20,6 +20,7 @@ sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids 
   sphstudy measure mode1                           metrics again from stored fields
   sphstudy reference mode1                         stored results become the stored reference
   sphstudy extrapolate mode1 G2_error --order 1    to zero particle spacing, with uncertainty
+  sphstudy advise scene=plate error=0.1%           the cheapest setting for an error, from stored points
   sphstudy status                                  what the results folder holds, run by run
   sphstudy list                                    scenes, methods, solvers, metrics, studies
   sphstudy describe scene plate                    every setting of one of them: value, unit, meaning
@@ -94,6 +95,10 @@ def _command(arguments: list[str]) -> int:
         from sphstudy import convergence
 
         return convergence.extrapolate_command(arguments[1:])
+    if command == "advise":
+        from sphstudy import advice
+
+        return advice.advise_command(arguments[1:])
     return _run(arguments)
 
 

@@ -159,7 +159,12 @@ def run(settings: dict) -> dict:
     solver.setup([plate, wall], equations(settings), nnps=search, kernel=kernel)
     solver.add_post_step_callback(sample)
     began = time.process_time()
-    solver.solve(show_progress=False)
+    try:
+        solver.solve(show_progress=False)
+    except RuntimeError:
+        # The neighbour search gives up when particles fly apart.
+        if np.hypot(plate.u, plate.v).max() < settings["speed_limit"]:
+            raise
     seconds = time.process_time() - began
     largest = float(np.hypot(plate.u, plate.v).max())
     return {

@@ -74,8 +74,8 @@ thermo 1000000
         try:
             program.command(f"run {steps}")
         except Exception:
-            # Distances that it has not set yet are tested against the box, and end a run that has begun to
-            # blow up. (In a thin box they end any run.)
+            # It tests distances that it has not set yet against the box, which ends a run that has begun
+            # to blow up (and in a thin box any run).
             fastest = np.abs(program.numpy.extract_atom("v")).max()
             whole = bool(fastest < 2.0 * body["velocity"].max())
             if whole:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from sphstudy.metrics.oscillation import fit_damped_sine
-from sphstudy.peers.codes import Code
+from sphstudy.peers.codes import THIS, Code
 from sphstudy.peers.launch import Outcome
 from sphstudy.peers.limit import NoLimit, stability_limit
 from sphstudy.peers.plate import SHORT, Plate
@@ -71,18 +71,19 @@ class Case:
 
 def settings(code: Code, plate: Plate, courant: float, duration: float, folder: Path) -> dict[str, Any]:
     """What a driver is given: body, material, its own settings, time step, length of the run (s)."""
-    given = {**plate.material, "h": code.h, "speed_limit": plate.speed_limit, **code.settings}
-    given["body"] = str(plate.body(code.columns, folder))
-    given["elements"] = (plate.config.n - 1) // 2
-    overrides = {**code.settings, "n": plate.config.n, "h": code.h}
-    if code.courant is not None:
-        given |= {"time_step": courant * plate.unit, "duration": duration, "samples": SAMPLES}
-        overrides |= {
-            "solve.courant": courant,
-            "scene.periods": duration / plate.duration,
-            "record.samples": SAMPLES,
-        }
-    return given | {"overrides": overrides}
+    stepped = code.courant is not None
+    given = {**plate.material, "speed_limit": plate.speed_limit}
+    if code.peer == THIS:
+        overrides = {**code.settings, "n": plate.config.n, "h": code.h}
+        if stepped:
+            periods = duration / plate.duration
+            overrides |= {"solve.courant": courant, "scene.periods": periods, "record.samples": SAMPLES}
+        return given | {"overrides": overrides}
+    given |= {**code.settings, "h": code.h, "body": str(plate.body(code.columns, folder))}
+    if stepped:
+        return given | {"time_step": courant * plate.unit, "duration": duration, "samples": SAMPLES}
+    # As many nodes across as there are rows of particles.
+    return given | {"elements": (plate.config.n - 1) // 2}
 
 
 def limit(code: Code, plate: Plate, guess: float, launch: Launch, folder: Path) -> float:

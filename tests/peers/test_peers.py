@@ -40,14 +40,16 @@ def answering(coarse, error, seconds):
     """A fake of all codes: a sine with this relative error of ω, unsound above C = 1.5."""
 
     def launcher(one, settings):
-        courant = settings.get("time_step", 0.0) / coarse.unit
+        overrides = settings.get("overrides", {})
+        courant = overrides.get("solve.courant", settings.get("time_step", 0.0) / coarse.unit)
+        duration = settings.get("duration", coarse.duration * overrides.get("scene.periods", 0.0))
         values = {"cpu_seconds": seconds[one.name], "particles": 300, "versions": {"fake": "1"}}
         omega = coarse.exact.value * (1.0 + error[one.name])
         if one.courant is None:
             return Outcome("done", values | {"frequency": omega})
-        time = np.linspace(0.0, settings["duration"], 101)
+        time = np.linspace(0.0, duration, 101)
         values |= {"time": time.tolist(), "deflection": (0.02 * np.sin(omega * time)).tolist()}
-        values |= {"steps": 10, "time_step": settings["time_step"]}
+        values |= {"steps": 10, "time_step": courant * coarse.unit}
         return Outcome("done" if courant < 1.5 else "diverged", values)
 
     return launcher
@@ -166,6 +168,7 @@ def test_peer_that_cannot_be_set_up_is_data(tmp_path, coarse, monkeypatch, capsy
 
     launcher = answering(coarse, {"sphstudy modes": -0.01}, {"sphstudy modes": 0.1})
     monkeypatch.setattr("sphstudy.peers.command.ensure", refuses)
+    monkeypatch.setattr("sphstudy.peers.show.draw", lambda found, folder: folder / "peers.png")
     monkeypatch.setattr("sphstudy.peers.command.CODES", (code("sphstudy modes"), code("skfem")))
     monkeypatch.setattr(
         "sphstudy.peers.command.launch",

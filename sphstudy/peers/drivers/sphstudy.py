@@ -21,7 +21,8 @@ WARM = 0.01
 def run(settings: dict) -> dict:
     """One run of the plate, or its modes."""
     overrides = {"scene": "plate", **settings["overrides"]}
-    _solved(overrides | ({"scene.periods": WARM, "record.samples": 10} if "duration" in settings else {}))
+    stepped = "scene.periods" in overrides
+    _solved(overrides | ({"scene.periods": WARM, "record.samples": 10} if stepped else {}))
     found = _solved(overrides)
     outcome = {
         "cpu_seconds": float(found["cpu_seconds"]),

@@ -64,7 +64,14 @@ THIS = "sphstudy"
 _TOTAL = "sphstudy, total Lagrangian"
 
 CODES = (
-    Code("sphstudy thesis", "sphstudy, thesis", THIS, 1.5, 0.8, settings={"method": "thesis"}),
+    Code(
+        "sphstudy thesis",
+        "sphstudy, thesis, $\\tilde h=1.5$",
+        THIS,
+        1.5,
+        0.8,
+        settings={"method": "thesis"},
+    ),
     Code(
         "sphstudy tl 1.3",
         f"{_TOTAL}, $\\tilde h=1.3$",
@@ -83,7 +90,7 @@ CODES = (
     ),
     Code(
         "sphstudy modes",
-        f"{_TOTAL}, modes",
+        f"{_TOTAL}, $\\tilde h=1.3$, modes",
         THIS,
         1.3,
         settings={"method": "tl", "solve": "modes"},
@@ -92,7 +99,7 @@ CODES = (
     # The wall must be as wide as the support.
     Code(
         "pysph",
-        "PySPH, thesis's formulation",
+        "PySPH, thesis, $\\tilde h=1.5$",
         "pysph",
         1.5,
         0.8,
@@ -102,7 +109,7 @@ CODES = (
     # Viscosity and hourglass control as in the examples that come with it.
     Code(
         "lammps",
-        "LAMMPS MACHDYN, total Lagrangian",
+        "LAMMPS MACHDYN, support $3\\Delta x$",
         "lammps",
         1.5,
         0.4,
@@ -113,6 +120,6 @@ CODES = (
             "viscosity_quadratic": 0.0,
         },
     ),
-    Code("skfem", "scikit-fem, modes", "skfem", 0.0),
+    Code("skfem", "scikit-fem, quadratic, modes", "skfem", 0.0),
 )
 """In the order in which they are run and printed. `h` of MACHDYN: its support over twice the spacing."""

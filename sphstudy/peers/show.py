@@ -72,6 +72,7 @@ def figure(found: xr.Dataset) -> Figure:
                 seconds, PERCENT * abs(error), markersize=5 + 2 * sizes.index(n), **look, **hollow
             )
         handles.append(Line2D([], [], label=points["title"].values[0], **look))
+    axes.margins(0.08)
     for axis in (axes.xaxis, axes.yaxis):
         plain_logarithmic(axis)
     axes.set_xlabel("CPU time (s)")

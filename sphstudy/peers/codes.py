@@ -106,7 +106,8 @@ CODES = (
         columns=4,
         settings={"viscosity_linear": 1.0, "viscosity_quadratic": 2.0, "xsph": 0.5},
     ),
-    # Viscosity and hourglass control as in the examples that come with it.
+    # Viscosity and hourglass control as in the examples that come with it. One clamped column, as with
+    # four its error is larger.
     Code(
         "lammps",
         "LAMMPS MACHDYN, support $3\\Delta x$",

@@ -21,6 +21,7 @@ sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids 
   sphstudy reference mode1                         stored results become the stored reference
   sphstudy extrapolate mode1 G2_error --order 1    to zero particle spacing, with uncertainty
   sphstudy advise scene=plate error=0.1%           the cheapest setting for an error, from stored points
+  sphstudy peers                                   other codes on the plate, set up and run side by side
   sphstudy status                                  what the results folder holds, run by run
   sphstudy list                                    scenes, methods, solvers, metrics, studies
   sphstudy describe scene plate                    every setting of one of them: value, unit, meaning
@@ -37,7 +38,7 @@ settings (key=value, before or after -m; several values with commas make a sweep
 flags
   -m, --multirun   run every combination of the values given
   -f, --force      run again what is already there
-  --dry-run        with `study`: run nothing
+  --dry-run        with `study` or `peers`: run nothing
   --order P        with `extrapolate`: the order of convergence, observed if it is not given
   --output FILE    with `extrapolate`: a netCDF file that keeps the result
   -h, --help       this text            --version   the version
@@ -99,6 +100,10 @@ def _command(arguments: list[str]) -> int:
         from sphstudy import advice
 
         return advice.advise_command(arguments[1:])
+    if command == "peers":
+        from sphstudy.peers.command import peers_command
+
+        return peers_command(arguments[1:])
     return _run(arguments)
 
 

@@ -19,7 +19,7 @@ def small_blocks(monkeypatch):
 
 
 def bodies(rng):
-    lattice = lattice_positions(9, 40)
+    lattice = lattice_positions(9, 14)
     sorted_cloud = random_cloud(rng, 100)
     rows = np.lexsort((sorted_cloud[0], np.round(sorted_cloud[1])))
     return {

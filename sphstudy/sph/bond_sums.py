@@ -75,26 +75,32 @@ def moments(parallel, bonds, x, y, into):
 
 
 @compiled_inner
-def _pull(stiffness, apart):
-    return 0.0 if stiffness is None else stiffness * apart
+def _pull(hourglass, weight, apart):
+    """2 ζµ w x_ij of one component; `hourglass` goes all the way down as it is, since a function that
+    returned either None or a number would return an optional one, and Numba's threads lose which it is.
+    """
+    return 0.0 if hourglass is None else 2.0 * hourglass * weight * apart
 
 
 @compiled_inner
-def _times(weight, stiffness):
-    return None if stiffness is None else weight * stiffness
-
-
-@compiled_inner
-def _force_terms(x, y, flux, i, j, count, there, along, across, stiffness, terms):
-    """(A_i + A_j) `along, across` + stiffness x_ij of `count` bonds (i + k, j + k)."""
+def _force_terms(x, y, flux, i, j, count, there, along, across, weight, hourglass, terms):
+    """(A_i + A_j) `along, across` + 2 ζµ w x_ij of `count` bonds (i + k, j + k)."""
     i1, j1 = i + count, j + count
     xi, xj, yi, yj = x[i:i1], x[j:j1], y[i:i1], y[j:j1]
     xx_i, xy_i, yx_i, yy_i = flux[XX, i:i1], flux[XY, i:i1], flux[YX, i:i1], flux[YY, i:i1]
     xx_j, xy_j, yx_j, yy_j = flux[XX, j:j1], flux[XY, j:j1], flux[YX, j:j1], flux[YY, j:j1]
     term_x, term_y = terms[0], terms[1]
     for k in range(count):
-        f_x = (xx_i[k] + xx_j[k]) * along + (xy_i[k] + xy_j[k]) * across + _pull(stiffness, xj[k] - xi[k])
-        f_y = (yx_i[k] + yx_j[k]) * along + (yy_i[k] + yy_j[k]) * across + _pull(stiffness, yj[k] - yi[k])
+        f_x = (
+            (xx_i[k] + xx_j[k]) * along
+            + (xy_i[k] + xy_j[k]) * across
+            + _pull(hourglass, weight, xj[k] - xi[k])
+        )
+        f_y = (
+            (yx_i[k] + yx_j[k]) * along
+            + (yy_i[k] + yy_j[k]) * across
+            + _pull(hourglass, weight, yj[k] - yi[k])
+        )
         term_x[k] = there[k] * f_x
         term_y[k] = there[k] * f_y
 
@@ -109,7 +115,7 @@ def _add_force(terms, sign, begin, count, force):
 
 
 @compiled_inner
-def _forces_of_block(b, x, y, flux, stiffness, terms, force, block):
+def _forces_of_block(b, x, y, flux, hourglass, terms, force, block):
     for r in range(b.run_begin[block], b.run_begin[block + 1]):
         w = b.run_weight[r]
         along, across = w * b.run_x[r], w * b.run_y[r]
@@ -118,7 +124,7 @@ def _forces_of_block(b, x, y, flux, stiffness, terms, force, block):
             i, at = b.start[r] + low, b.at[r] + low
             j = i + b.offset[r]
             there = b.there[at : at + count]
-            _force_terms(x, y, flux, i, j, count, there, along, across, _times(w, stiffness), terms)
+            _force_terms(x, y, flux, i, j, count, there, along, across, w, hourglass, terms)
             _add_force(terms, 1.0, i, count, force)
             _add_force(terms, -1.0, j, count, force)
     for p in range(b.single_begin[block], b.single_begin[block + 1]):
@@ -126,8 +132,8 @@ def _forces_of_block(b, x, y, flux, stiffness, terms, force, block):
         along, across = b.x[p], b.y[p]
         f_x = (flux[XX, i] + flux[XX, j]) * along + (flux[XY, i] + flux[XY, j]) * across
         f_y = (flux[YX, i] + flux[YX, j]) * along + (flux[YY, i] + flux[YY, j]) * across
-        f_x = b.weight[p] * (f_x + _pull(stiffness, x[j] - x[i]))
-        f_y = b.weight[p] * (f_y + _pull(stiffness, y[j] - y[i]))
+        f_x = b.weight[p] * (f_x + _pull(hourglass, 1.0, x[j] - x[i]))
+        f_y = b.weight[p] * (f_y + _pull(hourglass, 1.0, y[j] - y[i]))
         force[0, i] += f_x
         force[1, i] += f_y
         force[0, j] -= f_x
@@ -135,21 +141,21 @@ def _forces_of_block(b, x, y, flux, stiffness, terms, force, block):
 
 
 @compiled_parallel
-def _forces_in_parallel(b, x, y, flux, stiffness, terms, force, parity):
+def _forces_in_parallel(b, x, y, flux, hourglass, terms, force, parity):
     for half in prange((b.run_begin.size - parity) // 2):
-        _forces_of_block(b, x, y, flux, stiffness, terms[get_thread_id()], force, 2 * half + parity)
+        _forces_of_block(b, x, y, flux, hourglass, terms[get_thread_id()], force, 2 * half + parity)
 
 
 @compiled
-def forces(parallel, bonds, x, y, flux, stiffness, terms, force):
-    """Σ_j w_ij [(A_i + A_j) X_ij + stiffness x_ij] [2, N] (N/m) of the fluxes A [4, N] into `force`.
+def forces(parallel, bonds, x, y, flux, hourglass, terms, force):
+    """Σ_j w_ij [(A_i + A_j) X_ij + 2 ζµ x_ij] [2, N] (N/m) of the fluxes A [4, N] into `force`.
 
-    Without stiffness (None) the second term is not compiled.
+    hourglass: ζµ (Pa); None, and the second term is not compiled.
     """
     force[:] = 0.0
     for parity in range(2):
         if parallel is None:
             for block in range(parity, bonds.run_begin.size - 1, 2):
-                _forces_of_block(bonds, x, y, flux, stiffness, terms[0], force, block)
+                _forces_of_block(bonds, x, y, flux, hourglass, terms[0], force, block)
         else:
-            _forces_in_parallel(bonds, x, y, flux, stiffness, terms, force, parity)
+            _forces_in_parallel(bonds, x, y, flux, hourglass, terms, force, parity)

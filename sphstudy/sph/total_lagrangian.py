@@ -162,11 +162,6 @@ def _modulus(hourglass):
     return 0.0 if hourglass is None else hourglass
 
 
-@compiled_inner
-def _twice(hourglass):
-    return None if hourglass is None else 2.0 * hourglass
-
-
 @compiled
 def _fluxes(model, work):
     """A_i = V_i P_i L_i - ζ µ F_i from the deformation gradients."""
@@ -192,8 +187,7 @@ def force(model, x, y, work, force):
     """f_i = -∂U/∂x_i [2, N] (N/m) at the positions x, y [N] (m) into `force`; leaves F in `work`."""
     deformation_gradient(work.parallel, model, x, y, work.gradient)
     _fluxes(model, work)
-    stiffness = _twice(model.hourglass)
-    bond_sums.forces(work.parallel, model.bonds, x, y, work.flux, stiffness, work.terms, force)
+    bond_sums.forces(work.parallel, model.bonds, x, y, work.flux, model.hourglass, work.terms, force)
 
 
 @compiled_inner

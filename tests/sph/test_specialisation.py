@@ -90,9 +90,9 @@ def test_loops_over_bonds_are_vectorised():
     x, y = values[0], values[1]
     there, sums, terms = np.ones(32, np.uint8), np.zeros((4, 64)), np.zeros((2, 64))
     moments = generated_from(bond_sums._add_moments, x, y, 0, 3, 32, there, one, one, 0, sums)
-    for stiffness in (one, None):
+    for hourglass in (one, None):
         force = generated_from(
-            bond_sums._force_terms, x, y, values, 0, 3, 32, there, one, one, stiffness, terms
+            bond_sums._force_terms, x, y, values, 0, 3, 32, there, one, one, one, hourglass, terms
         )
         for code in (moments, force):
             assert re.search(r"fmul[a-z ]*<\d+ x double>", code)
@@ -102,10 +102,10 @@ def test_without_hourglass_energy_its_force_is_not_compiled():
     values, one = np.zeros((4, 64)), 1.0
     there, terms = np.ones(32, np.uint8), np.zeros((2, 64))
     code = {
-        stiffness: generated_from(
-            bond_sums._force_terms, *values[:2], values, 0, 3, 32, there, one, one, stiffness, terms
+        hourglass: generated_from(
+            bond_sums._force_terms, *values[:2], values, 0, 3, 32, there, one, one, one, hourglass, terms
         )
-        for stiffness in (one, None)
+        for hourglass in (one, None)
     }
     assert operations(code[None], "fsub[a-z ]*<\\d+ x double>") == 0
     assert operations(code[one], "fsub[a-z ]*<\\d+ x double>") > 0

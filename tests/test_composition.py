@@ -1,5 +1,7 @@
 """From overrides to points: defaults, protocols, grids, and wrong input refused as a whole."""
 
+import os
+
 import pytest
 
 from sphstudy.composition import session
@@ -85,6 +87,8 @@ WRONG = [
     (["hydra.run.dir=/tmp"], "of Hydra's own keys"),
     (["record.samples=3"], "record.samples=3: should be greater than or equal to 10"),
     (["record.times=[x]"], "record.times.0=x: should be a valid number"),
+    (["threads=0"], "threads=0: should be a whole number from 1 to"),
+    (["threads=1.5"], "threads=1.5: should be a whole number from 1 to"),
     (["h=25"], "the support is wider than the body"),
 ]
 
@@ -95,6 +99,18 @@ def test_wrong_input_names_key_value_and_what_is_allowed(hydra, overrides, compl
         hydra.points(overrides, sweep=False)
     assert complaint in str(error.value)
     assert len(error.value.complaints) <= 2
+
+
+def test_threads_are_for_runs_by_steps_and_make_no_other_point(hydra, monkeypatch):
+    monkeypatch.setattr(os, "cpu_count", lambda: 2)
+    (one,), _ = hydra.points(["scene=plate", "n=5"], sweep=False)
+    (two,), _ = hydra.points(["scene=plate", "n=5", "threads=2"], sweep=False)
+    assert (one.threads, two.threads) == (1, 2)
+    assert one.config == two.config
+    with pytest.raises(ConfigurationError, match="threads=2: solver modes runs on one thread"):
+        hydra.points(["scene=plate", "n=5", "method=tl", "solve=modes", "threads=2"], sweep=False)
+    with pytest.raises(ConfigurationError, match="threads=3: should be a whole number from 1 to 2"):
+        hydra.points(["scene=plate", "n=5", "threads=3"], sweep=False)
 
 
 def test_one_bad_point_refuses_the_whole_grid(hydra):

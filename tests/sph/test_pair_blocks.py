@@ -4,7 +4,15 @@ import numba
 import numpy as np
 import pytest
 
-from sphstudy.sph import constitutive, kernel, neighbours, total_lagrangian, updated_lagrangian
+from sphstudy.compilation import _FAST_MATH
+from sphstudy.sph import (
+    bond_sums,
+    constitutive,
+    kernel,
+    neighbours,
+    total_lagrangian,
+    updated_lagrangian,
+)
 from sphstudy.sph.material import Material
 from sphstudy.sph.pair_blocks import begins
 from sphstudy.sph.updated_lagrangian import rates, workspace
@@ -69,11 +77,10 @@ def test_rates_are_those_of_the_brute_force_twin(body):
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12 * np.abs(expected).max())
 
 
-def internal_force(rng, positions, threads):
-    count = positions.shape[1]
-    made = total_lagrangian.model(
+def elastic(positions):
+    return total_lagrangian.model(
         *positions,
-        np.ones(count),
+        np.ones(positions.shape[1]),
         1.0,
         kernel.KERNELS["cubic"],
         1.3,
@@ -81,6 +88,10 @@ def internal_force(rng, positions, threads):
         FREE,
         crack=middle_crack(positions),
     )
+
+
+def internal_force(rng, positions, threads):
+    count, made = positions.shape[1], elastic(positions)
     moved = positions + rng.uniform(-0.1, 0.1, positions.shape)
     force = np.zeros_like(positions)
     total_lagrangian.force(made, *moved, total_lagrangian.workspace(count, threads), force)
@@ -100,3 +111,16 @@ def test_two_threads_change_no_bit(body):
     serial, parallel = internal_force(one, positions, 1), internal_force(two, again, 2)
     assert np.abs(serial).max() > 0.0
     np.testing.assert_array_equal(serial, parallel)
+
+
+@pytest.mark.compiled
+def test_no_optional_number_goes_to_threads(rng):
+    """On its way to them Numba loses whether it is there, in one process out of many."""
+    positions = bodies(rng)["lattice"]
+    # Compiled afresh: what is loaded from the cache does not tell what it hands on.
+    fresh = numba.njit(fastmath=_FAST_MATH, error_model="numpy")(total_lagrangian.force.py_func)
+    work = total_lagrangian.workspace(positions.shape[1], 2)
+    fresh(elastic(positions), *positions, work, np.zeros_like(positions))
+    assert bond_sums.forces.signatures
+    handed = [one for signature in bond_sums.forces.signatures for one in signature]
+    assert not any(isinstance(one, numba.types.Optional) for one in handed)

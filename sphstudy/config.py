@@ -31,6 +31,7 @@ class Record:
 
     samples: int = count("points of the history, at equal intervals", ge=10, le=100_000)
     times: tuple[float, ...] = described("times at which fields are kept (s), besides each stage's end")
+    frames: int = count("evenly spaced times at which fields are kept too", ge=0, le=1000)
 
 
 @parameters

@@ -40,6 +40,9 @@ _HISTORY = {
     "smallest_spacing": ("m", "smallest distance between two particles that see each other"),
     "net_internal_force": ("1", "|sum of internal forces| over the sum of their magnitudes"),
     "constraint_power": ("W m-1", "power put in by the constraints per thickness"),
+    "hourglass_share": ("1", "checkerboard share of the squared deformation of all lattice cells"),
+    "hourglass_amplitude": ("1", "root mean square of the checkerboard, in spacings"),
+    "mirror_defect": ("1", "largest distance from the mirror image, in spacings"),
 }
 
 

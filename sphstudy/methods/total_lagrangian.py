@@ -112,4 +112,5 @@ def model(problem: Problem, config, crack_nodes: int) -> Model:
         viscous=Viscosity(method.viscosity_linear, method.viscosity_quadratic) if viscous else None,
         damping=getattr(config.solve, "damping", 0.0),
         wave_speed=body.material.wave_speed,
+        part=body.part,
     )

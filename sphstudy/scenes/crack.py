@@ -11,7 +11,7 @@ import numpy as np
 
 from sphstudy.exact import williams
 from sphstudy.parameters import count, described, number, parameters
-from sphstudy.scenes.problem import Body, Problem, Stage, lattice
+from sphstudy.scenes.problem import Body, Problem, Stage, lattice, lattice_sites
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
 
@@ -83,7 +83,7 @@ def crack_body(config) -> Body:
     }
     material = Material(scene.E, scene.nu, scene.rho, scene.plane)
     mass = np.full(x.size, scene.rho * spacing**2)
-    return Body(x, y, mass, spacing, spacing, material, tags)
+    return Body(x, y, mass, spacing, spacing, material, tags, lattice_sites(n, n))
 
 
 def build(config) -> Problem:
@@ -115,4 +115,5 @@ def build(config) -> Problem:
         tracked=int(np.flatnonzero(body.tags["faces"] & (body.y > 0.0))[0]),
         crack_first=below,
         crack_second=below + n,
+        mirrors=("y",) if scene.mode == 1 else (),
     )

@@ -7,7 +7,7 @@ import numpy as np
 
 from sphstudy.exact import beam
 from sphstudy.parameters import count, described, number, parameters
-from sphstudy.scenes.problem import Body, Problem, Stage, lattice
+from sphstudy.scenes.problem import Body, Problem, Stage, lattice, lattice_sites
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
 
@@ -76,7 +76,8 @@ def plate_body(config) -> Body:
     material = Material(scene.E, scene.nu, scene.rho, scene.plane)
     tags = {"clamped": grid_x <= 0.0, "centreline": grid_y == 0.0, "end": grid_x == x[-1]}
     mass = np.full(grid_x.size, scene.rho * spacing_x * spacing_y)
-    return Body(grid_x, grid_y, mass, spacing_x, spacing_y, material, tags)
+    sites = lattice_sites(x.size, y.size)
+    return Body(grid_x, grid_y, mass, spacing_x, spacing_y, material, tags, sites)
 
 
 def represented_length(config) -> float:

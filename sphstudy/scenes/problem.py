@@ -13,7 +13,9 @@ class Body:
     """Particles in the reference configuration, stored row by row (x fastest); sums over pairs of
     particles stored in random order take several times as long.
 
-    x, y [N] (m); mass [N] per thickness (kg/m); spacing_x, spacing_y (m); tags: named masks [N].
+    x, y [N] (m); mass [N] per thickness (kg/m); spacing_x, spacing_y (m); tags: named masks [N]. sites
+    [2, N]: column and row of the lattice that each particle was put on, whatever moved it off since.
+    part [N]: which of several bodies a particle belongs to; None: all to one.
     """
 
     x: np.ndarray
@@ -23,6 +25,8 @@ class Body:
     spacing_y: float
     material: Material
     tags: dict[str, np.ndarray] = field(default_factory=dict)
+    sites: np.ndarray | None = None
+    part: np.ndarray | None = None
 
     @property
     def mean_spacing(self) -> float:
@@ -55,6 +59,8 @@ class Problem:
     particles that carry the crack's nodes, those of later extensions included. step_spacing: the Δ of
     the time step rule (2.27) (m). energy_compliance: E* (Pa) and ν* by which strains follow from stresses
     in the strain energy (3.18). tracked: index of the particle whose displacement is recorded.
+    displacement_x, displacement_y [N]: where particles start, from their places in the body (m); None: at
+    those. mirrors: "x" and "y", the coordinates whose change of sign leaves the motion as it is.
     """
 
     body: Body
@@ -67,9 +73,26 @@ class Problem:
     tracked: int
     crack_first: np.ndarray = field(default_factory=lambda: np.empty(0, np.int64))
     crack_second: np.ndarray = field(default_factory=lambda: np.empty(0, np.int64))
+    displacement_x: np.ndarray | None = None
+    displacement_y: np.ndarray | None = None
+    mirrors: tuple[str, ...] = ()
+
+    @property
+    def start(self) -> np.ndarray:
+        """Positions at the beginning [2, N] (m)."""
+        place = np.stack((self.body.x, self.body.y))
+        for row, moved in enumerate((self.displacement_x, self.displacement_y)):
+            if moved is not None:
+                place[row] += moved
+        return place
 
 
 def lattice(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Positions of all particles of the lattice with columns x and rows y, x fastest."""
     grid_y, grid_x = np.meshgrid(y, x, indexing="ij")
     return grid_x.ravel(), grid_y.ravel()
+
+
+def lattice_sites(columns: int, rows: int) -> np.ndarray:
+    """Column and row [2, columns · rows] of each particle of a lattice, in the order of `lattice`."""
+    return np.stack([axis.ravel() for axis in np.meshgrid(np.arange(columns), np.arange(rows))])

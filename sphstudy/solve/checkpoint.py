@@ -15,7 +15,7 @@ class Checkpoint:
     stage: index of the stage in progress; begun: step at which it began; step: steps taken in all.
     loading_speed: √Σv² at the end of loading (m/s), NaN before. state [rows, N] and memory: see
     solve.system. history [M, columns]. stage_steps: of the stages done. snapshot_…: those taken [K],
-    fields [K, 8, N]. pairs: most pairs so far.
+    fields [K, 8, N]. good_…: the last sample at which all was well. pairs: most pairs so far.
     """
 
     stage: int
@@ -30,6 +30,9 @@ class Checkpoint:
     snapshot_fields: np.ndarray
     snapshot_energies: np.ndarray
     snapshot_closures: np.ndarray
+    good_step: int
+    good_energy: float
+    good_fields: np.ndarray
     pairs: int
     memory: dict[str, np.ndarray] = field(default_factory=dict)
 

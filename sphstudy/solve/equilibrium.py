@@ -8,6 +8,7 @@ from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Problem, Stage
 from sphstudy.solve.checkpoint import Keeper
 from sphstudy.solve.factorisation import NotSolvable
+from sphstudy.solve.indicators import Indicators
 from sphstudy.solve.newton import Effort, Newton
 from sphstudy.solve.potential_system import closure_work, fields, internal_force, totals
 from sphstudy.solve.solution import Snapshot, Solution, Variable
@@ -81,7 +82,8 @@ class _Statics:
 
     def __init__(self, problem: Problem, config, method):
         self.problem, self.config, self.method = problem, config, method
-        self.position = np.concatenate((problem.body.x, problem.body.y))
+        self.position = problem.start.ravel()
+        self.indicators = Indicators(problem)
         self.effort, self.solution = Effort(), Solution()
         self._enter(problem.stages[0].crack_nodes)
 
@@ -119,7 +121,8 @@ class _Statics:
         sums = totals(self.model, place, still, 0.0)
         i, body = self.problem.tracked, self.problem.body
         moved = (place[0, i] - body.x[i], place[1, i] - body.y[i])
-        self.solution.history.append((0.0, float(self.effort.systems), *moved, *sums))
+        seen = self.indicators.measure(place)
+        self.solution.history.append((0.0, float(self.effort.systems), *moved, *sums, *seen))
         self.solution.snapshots.append(
             Snapshot(
                 stage.name,

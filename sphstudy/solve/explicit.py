@@ -42,6 +42,14 @@ class Parameters:
     settle_ratio: float | None = number(
         "end settling when √Σv² is below so much of its value after loading", gt=0, lt=1
     )
+    stop_energy_gain: float | None = number(
+        "end when so much of the energy put in came from nowhere", gt=0
+    )
+    stop_spacing: float | None = number("end when particles are closer than so many spacings", gt=0, lt=1)
+    stop_hourglass: float | None = number(
+        "end when more of the squared deformation is checkerboard", gt=0, lt=1
+    )
+    stop_mirror: float | None = number("end when mirror images are so many spacings off", gt=0)
     equilibrium_ratio: float = number("what counts as equilibrium reached, the same ratio", gt=0, lt=1)
 
 

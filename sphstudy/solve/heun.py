@@ -14,6 +14,8 @@ from sphstudy.sph.neighbours import look, outdated
 from sphstudy.sph.updated_lagrangian import (
     RHO,
     STATE_ROWS,
+    VX,
+    VY,
     Model,
     Workspace,
     X,
@@ -48,13 +50,15 @@ def buffers(model: Model, count: int, threads: int = 1) -> Buffers:
 
 
 @compiled_exactly_inner
-def is_sound(state):
-    """Whether everything is finite and all densities are positive."""
+def is_sound(state, bulk_modulus):
+    """Whether everything is finite, all densities are positive, and nothing outruns sound, c² = K/ρ."""
     for i in range(state.shape[1]):
         total = 0.0
         for row in range(STATE_ROWS):
             total += state[row, i]
         if not (np.isfinite(total) and state[RHO, i] > 0.0):
+            return False
+        if not (state[VX, i] ** 2 + state[VY, i] ** 2) * state[RHO, i] <= bulk_modulus:
             return False
     return True
 
@@ -69,7 +73,7 @@ def advance(model, state, pairs, memory, amplitude_rate, dt, begin, end):
     """
     work, predicted, first, second = memory.work, memory.predicted, memory.first, memory.second
     for step in range(begin, end):
-        if step % CHECK_INTERVAL == 0 and not is_sound(state):
+        if step % CHECK_INTERVAL == 0 and not is_sound(state, model.bulk_modulus):
             return step, UNSOUND
         if outdated(pairs, state[X], state[Y], dt * fastest(model, state, amplitude_rate)):
             return step, OUTDATED
@@ -89,4 +93,4 @@ def advance(model, state, pairs, memory, amplitude_rate, dt, begin, end):
         for row in range(STATE_ROWS):
             for i in range(state.shape[1]):
                 state[row, i] += 0.5 * dt * (first[row, i] + second[row, i])
-    return end, REACHED if is_sound(state) else UNSOUND
+    return end, REACHED if is_sound(state, model.bulk_modulus) else UNSOUND

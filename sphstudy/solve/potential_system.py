@@ -33,7 +33,7 @@ class PotentialSystem:
         self._heun = True if integrator == "heun" else None
         body = problem.body
         self.state = np.zeros((verlet.STATE_ROWS, body.x.size))
-        self.state[verlet.X], self.state[verlet.Y] = body.x, body.y
+        self.state[: verlet.Y + 1] = problem.start
         self.state[verlet.VX], self.state[verlet.VY] = problem.velocity_x, problem.velocity_y
         self.pairs = 0
         self._buffers = verlet.buffers(body.x.size, threads)
@@ -63,6 +63,7 @@ class PotentialSystem:
             verlet.NOT_FINITE: "a value that is not finite",
             verlet.INVERTED: "an inverted deformation gradient, det F ≤ 0",
             verlet.TOO_FAR: "a step too far",
+            verlet.TOO_FAST: "a particle faster than sound",
         }
         return step, wrong[found]
 

@@ -34,7 +34,7 @@ class RateSystem:
         self.problem, self.dt, self._model_of, self._threads = problem, dt, model, threads
         body = problem.body
         self.state = np.zeros((STATE_ROWS, body.x.size))
-        self.state[X], self.state[Y] = body.x, body.y
+        self.state[: Y + 1] = problem.start
         self.state[VX], self.state[VY] = problem.velocity_x, problem.velocity_y
         self.state[RHO] = body.material.density
         self.pairs = 0
@@ -71,8 +71,12 @@ class RateSystem:
         return ""
 
     def _indicator(self) -> str:
-        finite = bool(np.isfinite(self.state).all())
-        return "a density ≤ 0 or a step too far" if finite else "a value that is not finite"
+        if not np.isfinite(self.state).all():
+            return "a value that is not finite"
+        if not (self.state[RHO] > 0.0).all():
+            return "a density ≤ 0"
+        faster = (self.state[VX] ** 2 + self.state[VY] ** 2) * self.state[RHO] > self.model.bulk_modulus
+        return "a particle faster than sound" if faster.any() else "a step too far"
 
     def totals(self) -> Invariants:
         """See System. The strain energy is that of (3.18)."""

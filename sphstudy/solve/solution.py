@@ -5,12 +5,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from sphstudy.solve.indicators import Seen
 from sphstudy.sph.invariants import Invariants
 
 FIELDS = ("x", "y", "velocity_x", "velocity_y", "density", "stress_xx", "stress_yy", "stress_xy")
 """Rows of Snapshot.fields; the stress is Cauchy's."""
 
-HISTORY = ("time", "step", "u_x", "u_y", *Invariants._fields)
+LAST_GOOD = "last good"
+"""Label of the snapshot that a run that went bad keeps: its last sample at which all was well."""
+
+HISTORY = ("time", "step", "u_x", "u_y", *Invariants._fields, *Seen._fields)
 """Columns of Solution.history."""
 
 

@@ -8,13 +8,21 @@ import numpy as np
 
 from sphstudy.scenes.problem import Problem, Stage
 from sphstudy.solve.checkpoint import Checkpoint, Keeper
-from sphstudy.solve.solution import FIELDS, HISTORY, Snapshot, Solution
+from sphstudy.solve.indicators import Indicators
+from sphstudy.solve.limits import breached
+from sphstudy.solve.solution import FIELDS, HISTORY, LAST_GOOD, Snapshot, Solution
 from sphstudy.solve.system import System
 
 CHUNK_SECONDS = 0.25
 """Aim for the length of one compiled call: signals, progress and limits act between calls."""
 
 _SPEED, _ENERGY = HISTORY.index("system_speed"), HISTORY.index("strain_energy")
+
+
+def requested_steps(record, dt: float, total: int) -> list[int]:
+    """Steps at which fields are kept: those next to the times asked for, and evenly spaced frames."""
+    frames = (round(k * total / max(1, record.frames - 1)) for k in range(record.frames))
+    return sorted({*(round(t / dt) for t in record.times), *frames})
 
 
 class Run:
@@ -34,8 +42,11 @@ class Run:
         self.on_progress, self.keeper = on_progress, keeper
         self.dt, self.steps, self.total = dt, steps, sum(steps)
         self.stride = max(1, self.total // config.record.samples)
-        self.requested = sorted({round(t / self.dt) for t in config.record.times})
+        self.requested = requested_steps(config.record, dt, self.total)
         self.solution = Solution(time_step=self.dt)
+        self.indicators = Indicators(problem)
+        self._good = Snapshot(LAST_GOOD, 0.0, 0, system.fields(), 0.0)
+        self._wave_speed = problem.body.material.wave_speed
         self.loading_speed = math.nan
         self._chunk = 1
 
@@ -81,6 +92,10 @@ class Run:
                 self._diverged(stage, step, wrong)
                 return step
             self._sample(step)
+            wrong = breached(self.solution.history, self.problem.body.mean_spacing, self.config.solve)
+            if wrong:
+                self._diverged(stage, step, wrong)
+                return step
             if ratio and self._last(_SPEED) < ratio * self.loading_speed:
                 return step
         return end
@@ -127,6 +142,9 @@ class Run:
             ),
             snapshot_energies=np.array([s.strain_energy for s in snapshots], float),
             snapshot_closures=np.array([s.closure_work for s in snapshots], float),
+            good_step=self._good.step,
+            good_energy=self._good.strain_energy,
+            good_fields=self._good.fields,
             pairs=self.system.pairs,
             memory=self.system.memory(),
         )
@@ -135,6 +153,8 @@ class Run:
         self.system.state[:] = kept.state
         self.system.pairs = kept.pairs
         self.loading_speed = kept.loading_speed
+        good_time = kept.good_step * self.dt
+        self._good = Snapshot(LAST_GOOD, good_time, kept.good_step, kept.good_fields, kept.good_energy)
         names = (stage.name for stage in self.problem.stages)
         self.solution.stage_steps = dict(zip(names, kept.stage_steps.tolist(), strict=False))
         self.solution.history = [tuple(row) for row in kept.history]
@@ -153,7 +173,12 @@ class Run:
         x, y = self.system.state[:2, self.problem.tracked]
         body, i = self.problem.body, self.problem.tracked
         moved = (x - body.x[i], y - body.y[i])
-        self.solution.history.append((step * self.dt, float(step), *moved, *self.system.totals()))
+        sums, seen = self.system.totals(), self.indicators.measure(self.system.state[:2])
+        self.solution.history.append((step * self.dt, float(step), *moved, *sums, *seen))
+        # A sample may come before the check that ends a run: what it saw by then is not good.
+        if sums.largest_speed <= self._wave_speed and np.isfinite(sums.strain_energy):
+            fields = self.system.fields()
+            self._good = Snapshot(LAST_GOOD, step * self.dt, step, fields, sums.strain_energy)
 
     def _last(self, column: int) -> float:
         """Of the last sample, which is always taken before a snapshot and at a stage's end."""
@@ -177,6 +202,7 @@ class Run:
 
     def _diverged(self, stage: Stage, step: int, wrong: str) -> None:
         self.solution.outcome = "diverged"
+        self.solution.snapshots.append(self._good)
         self.solution.message = (
             f"{wrong} at step {step} of {self.total} (t = {step * self.dt:.6g} s, stage {stage.name})"
         )

@@ -18,7 +18,7 @@ STATE_ROWS = 6
 CHECK_INTERVAL = 50
 """Steps between two looks at whether the run is still sound."""
 
-SOUND, NOT_FINITE, INVERTED, TOO_FAR = range(4)
+SOUND, NOT_FINITE, INVERTED, TOO_FAR, TOO_FAST = range(5)
 """What `advance` says about the state."""
 
 LARGEST = 1e100
@@ -59,7 +59,7 @@ def accelerate(model, state, memory):
 
 @compiled_exactly
 def soundness(model, state, memory, dt):
-    """Whether all is finite, nothing turned inside out, and nothing moves too far in a step.
+    """Whether all is finite, nothing turned inside out, nothing outruns sound or moves too far in a step.
 
     Written as comparisons with the largest value: rearranged arithmetic takes x - x for zero, and with it
     every number for finite.
@@ -74,6 +74,8 @@ def soundness(model, state, memory, dt):
         speed = np.sqrt(state[VX, i] ** 2 + state[VY, i] ** 2)
         if speed * dt > LONGEST_STRIDE * model.smoothing_length:
             return TOO_FAR
+        if speed > model.wave_speed:
+            return TOO_FAST
     return SOUND
 
 

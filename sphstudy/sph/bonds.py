@@ -129,12 +129,17 @@ def build(
     shape: Kernel,
     smoothing_length: float,
     crack: Crack | None,
+    part: np.ndarray | None = None,
 ) -> Bonds:
     """Bonds of the reference configuration x, y [N] (m), volumes [N] (m²): all pairs within the support
-    of the kernel that see each other past the crack. Raises ValueError if two particles coincide.
+    of the kernel that belong to the same part [N], if several are told apart, and see each other past
+    the crack. Raises ValueError if two particles coincide.
     """
     support = shape.support * smoothing_length
     first, second = neighbours.close_pairs(x, y, support)
+    if part is not None:
+        same = part[first] == part[second]
+        first, second = first[same], second[same]
     if crack is not None:
         seen = _in_sight(x, y, first, second, crack)
         first, second = first[seen], second[seen]

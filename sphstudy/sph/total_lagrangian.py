@@ -76,14 +76,16 @@ def model(
     crack: Crack | None = None,
     viscous: Viscosity | None = None,
     damping: float = 0.0,
-    wave_speed: float = 0.0,
+    wave_speed: float = np.inf,
+    part: np.ndarray | None = None,
 ) -> Model:
-    """The model of particles at x, y [N] (m) with masses [N] (kg/m); `hourglass`: ζ; damping (1/s).
+    """The model of particles at x, y [N] (m) with masses [N] (kg/m); `hourglass`: ζ; damping (1/s);
+    part [N]: which of several bodies each belongs to.
 
     Raises ValueError where the neighbours of a particle do not determine its deformation gradient.
     """
     volume = mass / density
-    found = bonds.build(x, y, volume, shape, smoothing_length, crack)
+    found = bonds.build(x, y, volume, shape, smoothing_length, crack, part)
     return Model(
         x=x,
         y=y,

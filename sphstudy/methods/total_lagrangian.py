@@ -1,15 +1,20 @@
 """Total Lagrangian SPH: variational, corrected, without hourglass modes."""
 
 import math
+from collections.abc import Iterator
 from typing import Literal
 
+import numpy as np
+
 from sphstudy.config import scene_module
-from sphstudy.methods.lattice import check, lattice_neighbours, support
+from sphstudy.methods import lattice
+from sphstudy.methods.lattice import lattice_neighbours, support
 from sphstudy.parameters import described, number, parameters
 from sphstudy.scenes.problem import Problem
 from sphstudy.solve.potential_system import PotentialSystem
 from sphstudy.solve.potential_system import highest_frequency as _highest_frequency
 from sphstudy.sph import constitutive, kernel, total_lagrangian
+from sphstudy.sph.contact import Surfaces
 from sphstudy.sph.crack import Crack
 from sphstudy.sph.total_lagrangian import Model
 from sphstudy.sph.viscosity import Viscosity
@@ -59,7 +64,23 @@ class Parameters:
     hourglass: float = number("ζ of the hourglass energy; 0 leaves zero-energy modes", ge=0)
     viscosity_linear: float = number("α of the artificial viscosity (2.21)", ge=0)
     viscosity_quadratic: float = number("β of the artificial viscosity (2.21)", ge=0)
+    contact_stiffness: float = number(
+        "κ of the contact between surfaces, f = 3κ(λ + 2µ) d0 (1 - r/d0)²; 0: they pass through", ge=0
+    )
+    contact_range: float = number(
+        "d0 of contact, in particle spacings; below 2 facing rows slip", gt=0, le=5
+    )
     visibility_tolerance: float = number("widening of the inclusive visibility test", gt=0, lt=1e-2)
+
+
+def check(config) -> Iterator[str]:
+    """Complaints about h and n, and about contact where nothing knows its stiffness."""
+    yield from lattice.check(config)
+    if config.method.contact_stiffness > 0.0 and config.solve.name == "equilibrium":
+        yield (
+            f"method.contact_stiffness={config.method.contact_stiffness:g}: solve=equilibrium knows no "
+            "contact; take explicit"
+        )
 
 
 def memory(particles: int, config) -> float:
@@ -98,6 +119,14 @@ def model(problem: Problem, config, crack_nodes: int) -> Model:
         nodes = problem.crack_first[:crack_nodes], problem.crack_second[:crack_nodes]
         crack = Crack(*nodes, method.visibility_tolerance)
     viscous = method.viscosity_linear > 0.0 or method.viscosity_quadratic > 0.0
+    surfaces = None
+    if method.contact_stiffness > 0.0:
+        strength = method.contact_stiffness * (
+            body.material.lame_modulus + 2.0 * body.material.shear_modulus
+        )
+        reach = method.contact_range * body.mean_spacing
+        index = np.flatnonzero(body.surface)
+        surfaces = Surfaces(strength, reach, index, body.x, body.y, body.part)
     return total_lagrangian.model(
         body.x,
         body.y,
@@ -113,4 +142,5 @@ def model(problem: Problem, config, crack_nodes: int) -> Model:
         damping=getattr(config.solve, "damping", 0.0),
         wave_speed=body.material.wave_speed,
         part=body.part,
+        surfaces=surfaces,
     )

@@ -52,6 +52,9 @@ class Parameters:
     viscosity_quadratic: float = number("β of the artificial viscosity (2.21)", ge=0)
     artificial_stress: float = number("ζ of the artificial stress (2.25); 0: off", ge=0, le=1)
     artificial_exponent: int = count("exponent n of f_ij in (2.24)", ge=0, le=15)
+    spin: Literal["none", "jaumann"] = described(
+        "does the stress turn with the body: not in the thesis, or by Jaumann's rate"
+    )
     bulk_modulus: Literal["unprimed", "primed"] = described(
         "K of the sound speed (2.22), hence of the time step: from E, ν or from E', ν'",
     )
@@ -131,6 +134,7 @@ def model(problem: Problem, config, crack_nodes: int) -> Model:
         artificial=ArtificialStress(method.artificial_stress, method.artificial_exponent, spacing_kernel)
         if method.artificial_stress > 0.0
         else None,
+        spin=True if method.spin == "jaumann" else None,
         damping=config.solve.damping or None,
         smoothing=config.solve.smoothing or None,
         crack=_crack(config, problem, crack_nodes),

@@ -33,6 +33,22 @@ class Body:
         """(Δx + Δy)/2 [m], what the relative smoothing radius h̃ refers to."""
         return 0.5 * (self.spacing_x + self.spacing_y)
 
+    @property
+    def surface(self) -> np.ndarray:
+        """Mask [N] of the particles beside a site, diagonals too, that is empty or another part's.
+
+        Raises ValueError if the body has no sites.
+        """
+        if self.sites is None:
+            raise ValueError("a body without a lattice does not know its surface")
+        column, row = self.sites
+        steps = [(dc, dr) for dc in (-1, 0, 1) for dr in (-1, 0, 1) if dc or dr]
+        around = np.stack([at_site(self.sites, column + dc, row + dr) for dc, dr in steps])
+        inside = (around >= 0).all(axis=0)
+        if self.part is not None:
+            inside &= (self.part[around] == self.part).all(axis=0)
+        return np.logical_not(inside)
+
 
 @dataclass(frozen=True)
 class Stage:
@@ -96,3 +112,14 @@ def lattice(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def lattice_sites(columns: int, rows: int) -> np.ndarray:
     """Column and row [2, columns · rows] of each particle of a lattice, in the order of `lattice`."""
     return np.stack([axis.ravel() for axis in np.meshgrid(np.arange(columns), np.arange(rows))])
+
+
+def at_site(sites: np.ndarray, column: np.ndarray, row: np.ndarray) -> np.ndarray:
+    """Index of the particle at each of these columns and rows, -1 where there is none; sites [2, N]."""
+    low = sites.min(axis=1) - 1
+    height = sites[1].max() - low[1] + 2
+    own = (sites[0] - low[0]) * height + sites[1] - low[1]
+    wanted = (column - low[0]) * height + row - low[1]
+    order = np.argsort(own)
+    place = np.minimum(np.searchsorted(own[order], wanted), own.size - 1)
+    return np.where(own[order][place] == wanted, order[place], -1)

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.scenes.problem import Body, Problem
+from sphstudy.scenes.problem import Body, Problem, at_site
 
 _SIGNS = np.array((1.0, -1.0, -1.0, 1.0))
 """Of the checkerboard on a cell whose corners are (0, 0), (1, 0), (0, 1), (1, 1)."""
@@ -71,7 +71,7 @@ def cells(body: Body) -> np.ndarray:
         return np.empty((4, 0), np.int64)
     column, row = body.sites
     steps = ((0, 0), (1, 0), (0, 1), (1, 1))
-    corners = np.stack([_at(body.sites, column + dc, row + dr) for dc, dr in steps])
+    corners = np.stack([at_site(body.sites, column + dc, row + dr) for dc, dr in steps])
     whole = (corners >= 0).all(axis=0)
     if body.part is not None:
         whole &= (body.part[corners] == body.part).all(axis=0)
@@ -85,18 +85,7 @@ def partners(body: Body, axis: str) -> np.ndarray:
     image = body.sites.copy()
     row = image["xy".index(axis)]
     row[:] = row.min() + row.max() - row
-    found = _at(body.sites, *image)
+    found = at_site(body.sites, *image)
     if (found < 0).any():
         raise ValueError(f"the lattice is not symmetric in {axis}")
     return found
-
-
-def _at(sites: np.ndarray, column: np.ndarray, row: np.ndarray) -> np.ndarray:
-    """Index of the particle at each site, -1 where there is none."""
-    low = sites.min(axis=1) - 1
-    height = sites[1].max() - low[1] + 2
-    own = (sites[0] - low[0]) * height + sites[1] - low[1]
-    wanted = (column - low[0]) * height + row - low[1]
-    order = np.argsort(own)
-    place = np.minimum(np.searchsorted(own[order], wanted), own.size - 1)
-    return np.where(own[order][place] == wanted, order[place], -1)

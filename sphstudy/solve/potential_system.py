@@ -44,6 +44,7 @@ class PotentialSystem:
         before = self.model
         self.model, self.amplitude_rate = self._model_of(stage.crack_nodes), amplitude_rate
         self.pairs = max(self.pairs, self.model.bonds.total)
+        self._renew_contact()
         x, y = self.state[verlet.X], self.state[verlet.Y]
         force = internal_force(self.model, x, y, self._buffers.work)
         if kept is not None:
@@ -55,9 +56,13 @@ class PotentialSystem:
 
     def advance(self, begin: int, end: int) -> tuple[int, str]:
         """See System."""
-        step, found = verlet.advance(
-            self._heun, self.model, self.state, self._buffers, self.amplitude_rate, self.dt, begin, end
-        )
+        step, found = begin, verlet.OUTDATED
+        while found == verlet.OUTDATED:
+            step, found = verlet.advance(
+                self._heun, self.model, self.state, self._buffers, self.amplitude_rate, self.dt, step, end
+            )
+            if found == verlet.OUTDATED:
+                self._renew_contact()
         wrong = {
             verlet.SOUND: "",
             verlet.NOT_FINITE: "a value that is not finite",
@@ -67,8 +72,14 @@ class PotentialSystem:
         }
         return step, wrong[found]
 
+    def _renew_contact(self) -> None:
+        surfaces = self.model.surfaces
+        if surfaces is not None:
+            contact = surfaces.contact(self.state[verlet.X], self.state[verlet.Y])
+            self.model = self.model._replace(contact=contact)
+
     def totals(self) -> Invariants:
-        """See System. The strain energy is all of the potential, hourglass energy included."""
+        """See System. The strain energy is all of the potential, hourglass and contact included."""
         return totals(self.model, self.state[:2], self.state[2:4], self.amplitude_rate)
 
     def fields(self) -> np.ndarray:
@@ -109,7 +120,7 @@ def totals(model: Model, position: np.ndarray, velocity: np.ndarray, amplitude_r
     mass, work = model.mass, total_lagrangian.workspace(model.mass.size)
     force = internal_force(model, position[0], position[1], work)
     total_lagrangian.add_viscosity(model.viscosity, model, *velocity, *position, force)
-    strain, hourglass = total_lagrangian.energies(model, *position, work)
+    energy = sum(total_lagrangian.energies(model, *position, work))
     squared = (velocity**2).sum(axis=0)
     momentum = (mass * velocity).sum(axis=1)
     spin = float((mass * (position[0] * velocity[1] - position[1] * velocity[0])).sum())
@@ -127,7 +138,7 @@ def totals(model: Model, position: np.ndarray, velocity: np.ndarray, amplitude_r
         momentum_y=float(momentum[1]),
         angular_momentum=spin,
         kinetic_energy=0.5 * float(mass @ squared),
-        strain_energy=strain + hourglass,
+        strain_energy=energy,
         largest_speed=float(np.sqrt(squared.max())),
         smallest_spacing=float(distance.min()),
         net_internal_force=float(np.hypot(*force.sum(axis=1))) / magnitude if magnitude else 0.0,

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled, compiled_exactly, compiled_inner
-from sphstudy.sph import total_lagrangian
+from sphstudy.compilation import compiled, compiled_exactly, compiled_exactly_inner, compiled_inner
+from sphstudy.sph import neighbours, total_lagrangian
 from sphstudy.sph.constraints import prescribe
 
 X, Y, VX, VY, AX, AY = range(6)
@@ -18,8 +18,8 @@ STATE_ROWS = 6
 CHECK_INTERVAL = 50
 """Steps between two looks at whether the run is still sound."""
 
-SOUND, NOT_FINITE, INVERTED, TOO_FAR, TOO_FAST = range(5)
-"""What `advance` says about the state."""
+SOUND, NOT_FINITE, INVERTED, TOO_FAR, TOO_FAST, OUTDATED = range(6)
+"""What `advance` says about the state; OUTDATED: pairs in contact need renewal before the next step."""
 
 LARGEST = 1e100
 """Of any number in a state, in its SI unit: their squares are finite too."""
@@ -79,6 +79,18 @@ def soundness(model, state, memory, dt):
     return SOUND
 
 
+@compiled_exactly_inner
+def _outdated(contact, state, dt):
+    """Whether a pair in contact may be missed in the next step."""
+    if contact is None:
+        return False
+    fastest = 0.0
+    for i in range(state.shape[1]):
+        speed = np.hypot(state[VX, i], state[VY, i]) + dt * np.hypot(state[AX, i], state[AY, i])
+        fastest = max(fastest, speed)
+    return neighbours.outdated(contact, state[X], state[Y], dt * fastest)
+
+
 @compiled_inner
 def _rate(damping):
     return 0.0 if damping is None else damping
@@ -128,13 +140,16 @@ def advance(heun, model, state, memory, amplitude_rate, dt, begin, end):
     """Steps from number `begin` to `end`, with Heun's method unless `heun` is None.
 
     `state` [6, N] is updated in place; `accelerate` must have brought it and the buffers up to date.
-    Prescribed freedoms move with target · `amplitude_rate`. Returns (steps taken in all, soundness).
+    Prescribed freedoms move with target · `amplitude_rate`. Returns (steps taken in all, soundness or
+    OUTDATED).
     """
     for step in range(begin, end):
         if step % CHECK_INTERVAL == 0:
             found = soundness(model, state, memory, dt)
             if found != SOUND:
                 return step, found
+        if _outdated(model.contact, state, dt):
+            return step, OUTDATED
         if heun is None:
             _verlet_step(model, state, memory, amplitude_rate, dt)
         else:

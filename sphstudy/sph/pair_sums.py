@@ -1,4 +1,4 @@
-"""Sums over pairs: the smoothed velocity of XSPH, and the forces and strain rates of (2.24) to (2.16).
+"""Sums over pairs: the forces and strain rates of (2.24) to (2.16), and what all such sums share.
 
 They go block by block, even blocks first (sph.pair_blocks), on several threads unless `parallel` is None.
 
@@ -49,33 +49,40 @@ class PairTerms(NamedTuple):
     normalisation: float
     viscosity: Viscosity | None
     artificial: ArtificialStress | None
+    spin: bool | None
+
+
+@compiled_inner
+def _set_spin(spin, skew, k, value):
+    if spin is None:
+        return
+    skew[k] = value
+
+
+@compiled_inner
+def _add_spin(spin, sums, mass, specific, terms, begin, count):
+    """Adds ½ (∂u/∂y - ∂v/∂x), weighted by volume like the strain rate."""
+    if spin is None:
+        return
+    total, skew = sums[6, begin : begin + count], terms[5]
+    for k in range(count):
+        total[k] += mass[k] * specific[k] * skew[k]
+
+
+@compiled_inner
+def _add_spin_of_singles(spin, pairs, low, count, mass, specific, sums, terms):
+    if spin is None:
+        return
+    for k in range(count):
+        i, j = pairs.first[low + k], pairs.second[low + k]
+        sums[6, i] += mass[j] * specific[j] * terms[5, k]
+        sums[6, j] += mass[i] * specific[i] * terms[5, k]
 
 
 @compiled_inner
 def artificial_row(viscosity_term):
     """First of the three rows of R in the pair data."""
     return SOUND if viscosity_term is None else SOUND + 1
-
-
-@compiled_inner
-def _smoothing_terms(model, data, i0, j0, count, terms):
-    """XSPH (2.20): (v_j - v_i) W_ij / ((ρ_i + ρ_j)/2) for `count` pairs (i0 + k, j0 + k)."""
-    i1, j1 = i0 + count, j0 + count
-    xi, xj = data[X, i0:i1], data[X, j0:j1]
-    yi, yj = data[Y, i0:i1], data[Y, j0:j1]
-    ui, uj = data[U, i0:i1], data[U, j0:j1]
-    vi, vj = data[V, i0:i1], data[V, j0:j1]
-    rho_i, rho_j = data[RHO, i0:i1], data[RHO, j0:j1]
-    term_x, term_y = terms[0], terms[1]
-    per_length = 1.0 / model.smoothing_length
-    scale = 2.0 * model.normalisation
-    for k in range(count):
-        dx = xi[k] - xj[k]
-        dy = yi[k] - yj[k]
-        q = np.sqrt(dx * dx + dy * dy) * per_length
-        weight = scale * kernel.value(model.kernel, q) / (rho_i[k] + rho_j[k])
-        term_x[k] = (uj[k] - ui[k]) * weight
-        term_y[k] = (vj[k] - vi[k]) * weight
 
 
 @compiled_inner
@@ -113,7 +120,8 @@ def _artificial_factor(artificial, shape, q):
 def _momentum_terms(model, data, i0, j0, count, terms):
     """Pair terms of (2.24), (2.16) and (2.17) for `count` pairs (i0 + k, j0 + k).
 
-    terms 0, 1: acceleration per mass of the partner; 2, 3, 4: (v_j - v_i) ∂W, symmetrised, xx, yy, xy.
+    terms 0, 1: acceleration per mass of the partner; 2, 3, 4: (v_j - v_i) ∂W, symmetrised, xx, yy, xy; 5:
+    its antisymmetric part, unless the model has no spin.
     """
     i1, j1 = i0 + count, j0 + count
     xi, xj = data[X, i0:i1], data[X, j0:j1]
@@ -131,6 +139,7 @@ def _momentum_terms(model, data, i0, j0, count, terms):
     rxx_i, ryy_i, rxy_i = _artificial_stresses(model.artificial, row, data, i0, count)
     rxx_j, ryy_j, rxy_j = _artificial_stresses(model.artificial, row, data, j0, count)
     force_x, force_y, grad_xx, grad_yy, grad_xy = terms[0], terms[1], terms[2], terms[3], terms[4]
+    skew = terms[terms.shape[0] - 1]
     length = model.smoothing_length
     per_length = 1.0 / length
     scale = model.normalisation * per_length
@@ -164,18 +173,7 @@ def _momentum_terms(model, data, i0, j0, count, terms):
         grad_xx[k] = du * gx
         grad_yy[k] = dv * gy
         grad_xy[k] = 0.5 * (du * gy + dv * gx)
-
-
-@compiled_inner
-def _add_smoothing(sums, mass, terms, sign, begin, count):
-    """Adds sign · m t to the particles from `begin` on; `mass` is their partners'."""
-    end = begin + count
-    sum_x, sum_y = sums[0, begin:end], sums[1, begin:end]
-    term_x, term_y = terms[0], terms[1]
-    for k in range(count):
-        m = sign * mass[k]
-        sum_x[k] += m * term_x[k]
-        sum_y[k] += m * term_y[k]
+        _set_spin(model.spin, skew, k, 0.5 * (du * gy - dv * gx))
 
 
 @compiled_inner
@@ -201,7 +199,7 @@ def _add_momentum(sums, mass, specific, terms, sign, begin, count):
 
 
 @compiled_inner
-def _gather(data, rows, pairs, low, count, gathered):
+def gather(data, rows, pairs, low, count, gathered):
     """Copies the pair data of `count` singles side by side: i at 0, j at BATCH."""
     for row in range(rows):
         source, target = data[row], gathered[row]
@@ -211,67 +209,13 @@ def _gather(data, rows, pairs, low, count, gathered):
 
 
 @compiled_inner
-def _smooth_singles(model, pairs, work, thread, begin, end):
-    data, sums, terms, gathered = work.pair_data, work.sums, work.terms[thread], work.gathered[thread]
-    mass = data[MASS]
-    left, right = np.int64(0), np.int64(BATCH)  # as literals they would compile the terms twice
-    for low in range(begin, end, BATCH):
-        count = min(BATCH, end - low)
-        _gather(data, RHO + 1, pairs, low, count, gathered)
-        _smoothing_terms(model, gathered, left, right, count, terms)
-        for k in range(count):
-            i, j = pairs.first[low + k], pairs.second[low + k]
-            for row in range(2):
-                sums[row, i] += mass[j] * terms[row, k]
-                sums[row, j] -= mass[i] * terms[row, k]
-
-
-@compiled_inner
-def _smooth_block(model, pairs, work, thread, block):
-    data, sums, terms = work.pair_data, work.sums, work.terms[thread]
-    mass = data[MASS]
-    for r in range(pairs.run_begin[block], pairs.run_begin[block + 1]):
-        for low in range(0, pairs.length[r], BATCH):
-            count = min(BATCH, pairs.length[r] - low)
-            i0 = pairs.start[r] + low
-            j0 = i0 + pairs.offset[r]
-            _smoothing_terms(model, data, i0, j0, count, terms)
-            _add_smoothing(sums, mass[j0 : j0 + count], terms, 1.0, i0, count)
-            _add_smoothing(sums, mass[i0 : i0 + count], terms, -1.0, j0, count)
-    begin, end = pairs.single_begin[block], pairs.single_begin[block + 1]
-    _smooth_singles(model, pairs, work, thread, begin, end)
-
-
-@compiled_parallel
-def _smooth_in_parallel(shape, length, normalisation, pairs, work, parity):
-    for half in prange((pairs.run_begin.size - parity) // 2):
-        terms = PairTerms(shape, length, normalisation, None, None)
-        _smooth_block(terms, pairs, work, get_thread_id(), 2 * half + parity)
-
-
-@compiled_inner
-def sum_smoothing(parallel, model, pairs, work):
-    """Row 0, 1 of the sums: Σ_j m_j (v_j - v_i) W_ij / ((ρ_i + ρ_j)/2)."""
-    work.sums[:2] = 0.0
-    for parity in range(2):
-        if parallel is None:
-            for block in range(parity, pairs.run_begin.size - 1, 2):
-                _smooth_block(model, pairs, work, 0, block)
-        else:
-            _smooth_in_parallel(
-                model.kernel, model.smoothing_length, model.normalisation, pairs, work, parity
-            )
-    _smooth_singles(model, pairs, work, 0, pairs.single_begin[-1], pairs.singles[0])
-
-
-@compiled_inner
 def _momentum_of_singles(model, pairs, work, thread, begin, end):
     data, sums, terms, gathered = work.pair_data, work.sums, work.terms[thread], work.gathered[thread]
     mass, specific = data[MASS], data[SPECIFIC]
     left, right = np.int64(0), np.int64(BATCH)  # as literals they would compile the terms twice
     for low in range(begin, end, BATCH):
         count = min(BATCH, end - low)
-        _gather(data, data.shape[0], pairs, low, count, gathered)
+        gather(data, data.shape[0], pairs, low, count, gathered)
         _momentum_terms(model, gathered, left, right, count, terms)
         for k in range(count):
             i, j = pairs.first[low + k], pairs.second[low + k]
@@ -284,6 +228,7 @@ def _momentum_of_singles(model, pairs, work, thread, begin, end):
             for row in range(3):
                 sums[3 + row, i] += mass[j] * specific[j] * terms[2 + row, k]
                 sums[3 + row, j] += mass[i] * specific[i] * terms[2 + row, k]
+        _add_spin_of_singles(model.spin, pairs, low, count, mass, specific, sums, terms)
 
 
 @compiled_inner
@@ -299,20 +244,22 @@ def _momentum_of_block(model, pairs, work, thread, block):
             _momentum_terms(model, data, i0, j0, count, terms)
             _add_momentum(sums, mass[j0:j1], specific[j0:j1], terms, 1.0, i0, count)
             _add_momentum(sums, mass[i0:i1], specific[i0:i1], terms, -1.0, j0, count)
+            _add_spin(model.spin, sums, mass[j0:j1], specific[j0:j1], terms, i0, count)
+            _add_spin(model.spin, sums, mass[i0:i1], specific[i0:i1], terms, j0, count)
     begin, end = pairs.single_begin[block], pairs.single_begin[block + 1]
     _momentum_of_singles(model, pairs, work, thread, begin, end)
 
 
 @compiled_parallel
-def _momentum_in_parallel(shape, length, normalisation, viscous, artificial, pairs, work, parity):
+def _momentum_in_parallel(shape, length, normalisation, viscous, artificial, spin, pairs, work, parity):
     for half in prange((pairs.run_begin.size - parity) // 2):
-        terms = PairTerms(shape, length, normalisation, viscous, artificial)
+        terms = PairTerms(shape, length, normalisation, viscous, artificial, spin)
         _momentum_of_block(terms, pairs, work, get_thread_id(), 2 * half + parity)
 
 
 @compiled_inner
 def sum_momentum(parallel, model, pairs, work):
-    """All six sums of the momentum pass."""
+    """All sums of the momentum pass: six, and the spin if the model has it."""
     work.sums[:] = 0.0
     for parity in range(2):
         if parallel is None:
@@ -325,6 +272,7 @@ def sum_momentum(parallel, model, pairs, work):
                 model.normalisation,
                 model.viscosity,
                 model.artificial,
+                model.spin,
                 pairs,
                 work,
                 parity,

@@ -16,9 +16,11 @@ import numpy as np
 
 from sphstudy.compilation import compiled, compiled_exactly, compiled_inner
 from sphstudy.sph import bond_sums, bonds, constitutive, viscosity
+from sphstudy.sph import contact as contacts
 from sphstudy.sph.bonds import Bonds
 from sphstudy.sph.constitutive import Law
 from sphstudy.sph.constraints import Constraints
+from sphstudy.sph.contact import Contact, Surfaces
 from sphstudy.sph.crack import Crack
 from sphstudy.sph.kernel import Kernel
 from sphstudy.sph.viscosity import Viscosity
@@ -33,7 +35,8 @@ class Model(NamedTuple):
     """Everything that energy and force need besides positions; optional terms are None.
 
     x, y [N]: reference positions (m); volume [N] (m²); mass [N] (kg/m); correction [3, N]: L, xx, xy, yy
-    (1/m²); hourglass: ζµ (Pa); viscosity with its smoothing length (m) and wave speed (m/s).
+    (1/m²); hourglass: ζµ (Pa); viscosity with its smoothing length (m) and wave speed (m/s); surfaces
+    that may touch, and pairs of their particles that are close now.
     """
 
     x: np.ndarray
@@ -49,6 +52,8 @@ class Model(NamedTuple):
     damping: float | None
     smoothing_length: float
     wave_speed: float
+    surfaces: Surfaces | None = None
+    contact: Contact | None = None
 
 
 class Workspace(NamedTuple):
@@ -78,6 +83,7 @@ def model(
     damping: float = 0.0,
     wave_speed: float = np.inf,
     part: np.ndarray | None = None,
+    surfaces: Surfaces | None = None,
 ) -> Model:
     """The model of particles at x, y [N] (m) with masses [N] (kg/m); `hourglass`: ζ; damping (1/s);
     part [N]: which of several bodies each belongs to.
@@ -100,6 +106,8 @@ def model(
         damping=damping or None,
         smoothing_length=smoothing_length,
         wave_speed=wave_speed,
+        surfaces=surfaces,
+        contact=surfaces.contact(x, y) if surfaces else None,
     )
 
 
@@ -190,6 +198,7 @@ def force(model, x, y, work, force):
     deformation_gradient(work.parallel, model, x, y, work.gradient)
     _fluxes(model, work)
     bond_sums.forces(work.parallel, model.bonds, x, y, work.flux, model.hourglass, work.terms, force)
+    contacts.add_forces(model.contact, x, y, force)
 
 
 @compiled_inner
@@ -202,7 +211,9 @@ def _misfit(gradient, i, dx, dy, x, y):
 
 @compiled
 def energies(model, x, y, work):
-    """Σ V ψ(F) and the hourglass energy [J/m] at the positions x, y [N] (m); leaves F in `work`."""
+    """Σ V ψ(F), hourglass energy and energy of contact [J/m] at the positions x, y [N] (m); leaves F in
+    `work`.
+    """
     gradient = work.gradient
     deformation_gradient(work.parallel, model, x, y, gradient)
     strain = 0.0
@@ -222,7 +233,7 @@ def energies(model, x, y, work):
         i, j = b.first[p], b.second[p]
         for end in (i, j):
             misfit += b.weight[p] * _misfit(gradient, end, x[j] - x[i], y[j] - y[i], b.x[p], b.y[p])
-    return strain, 0.5 * _modulus(model.hourglass) * misfit
+    return strain, 0.5 * _modulus(model.hourglass) * misfit, contacts.energy(model.contact, x, y)
 
 
 @compiled_inner

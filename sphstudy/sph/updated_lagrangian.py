@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sphstudy.compilation import compiled, compiled_exactly, compiled_inner
-from sphstudy.sph import neighbours, pair_sums
+from sphstudy.sph import neighbours, pair_sums, smoothing_sums
 from sphstudy.sph.artificial_stress import ArtificialStress, principal_pressure
 from sphstudy.sph.constraints import Constraints, prescribe, release
 from sphstudy.sph.crack import Crack
@@ -30,9 +30,10 @@ class Model(NamedTuple):
     """Everything the right-hand side needs besides the state; optional terms are None.
 
     mass [N] (kg/m); smoothing_length (m); normalisation α of the kernel (1/m²); skin (m) of the
-    neighbour list; lame_modulus, shear_modulus, bulk_modulus (Pa); xsph: µ of (2.20); damping: γ of
-    (2.23) (1/s); smoothing: η of (2.26). `prescribe_smoothed`: constrained particles' ṽ is prescribed
-    too; `prescribe_again`: constrained velocities are prescribed again after the smearing.
+    neighbour list; lame_modulus, shear_modulus, bulk_modulus (Pa); xsph: µ of (2.20); spin: True for
+    Jaumann's rate; damping: γ of (2.23) (1/s); smoothing: η of (2.26). `prescribe_smoothed`: constrained
+    particles' ṽ is prescribed too; `prescribe_again`: constrained velocities are prescribed again after
+    the smearing.
     """
 
     mass: np.ndarray
@@ -49,6 +50,7 @@ class Model(NamedTuple):
     xsph: float | None
     viscosity: Viscosity | None
     artificial: ArtificialStress | None
+    spin: bool | None
     damping: float | None
     smoothing: float | None
     crack: Crack | None
@@ -57,10 +59,11 @@ class Model(NamedTuple):
 def workspace(model: Model, count: int, threads: int = 1) -> Workspace:
     """Workspace for `count` particles and so many threads; rows exist only for the terms in the model."""
     rows = pair_sums.SOUND + (model.viscosity is not None) + 3 * (model.artificial is not None)
+    spin = int(model.spin is not None)
     return Workspace(
         pair_data=np.zeros((rows, count)),
-        sums=np.zeros((6, count)),
-        terms=np.zeros((threads, 5, pair_sums.BATCH)),
+        sums=np.zeros((6 + spin, count)),
+        terms=np.zeros((threads, 5 + spin, pair_sums.BATCH)),
         gathered=np.zeros((threads, rows, 2 * pair_sums.BATCH)),
         parallel=True if threads > 1 else None,
     )
@@ -152,7 +155,7 @@ def _smoothed_velocity(xsph, model, state, pairs, amplitude_rate, work):
     _load_motion(model, state, data)
     if xsph is None:
         return
-    pair_sums.sum_smoothing(work.parallel, model, pairs, work)
+    smoothing_sums.sum_smoothing(work.parallel, model, pairs, work)
     for i in range(data.shape[1]):
         data[pair_sums.U, i] += xsph * sums[0, i]
         data[pair_sums.V, i] += xsph * sums[1, i]
@@ -173,6 +176,20 @@ def begin_step(smoothing, model, state, pairs, amplitude_rate, work):
         state[VY, i] += smoothing * (data[pair_sums.V, i] - state[VY, i])
     if model.prescribe_again:
         prescribe(model.constraints, state[VX], state[VY], amplitude_rate)
+
+
+@compiled_inner
+def _corotate(spin, state, sums, rate):
+    """Jaumann's rate: adds ωσ - σω with the spin ω_xy = ½ (∂u/∂y - ∂v/∂x), so that stress turns with the
+    body (Gray, Monaghan & Swift 2001, equation 4). The thesis has none.
+    """
+    if spin is None:
+        return
+    for i in range(state.shape[1]):
+        xx, yy, xy = state[SXX, i], state[SYY, i], state[SXY, i]
+        rate[SXX, i] += 2.0 * sums[6, i] * xy
+        rate[SYY, i] -= 2.0 * sums[6, i] * xy
+        rate[SXY, i] += sums[6, i] * (yy - xx)
 
 
 @compiled
@@ -197,6 +214,7 @@ def rates(model, state, pairs, amplitude_rate, work, rate):
         rate[SXX, i] = mean_rate + two_mu * sums[3, i]
         rate[SYY, i] = mean_rate + two_mu * sums[4, i]
         rate[SXY, i] = two_mu * sums[5, i]
+    _corotate(model.spin, state, sums, rate)
 
 
 @compiled_inner

@@ -121,4 +121,10 @@ def rates(model, state):
     out[5] = model.lame_modulus * (exx + eyy) + 2.0 * model.shear_modulus * exx
     out[6] = model.lame_modulus * (exx + eyy) + 2.0 * model.shear_modulus * eyy
     out[7] = 2.0 * model.shear_modulus * exy
+    if model.spin is not None:
+        half = 0.5 * np.sum((du * gy - dv * gx) * volume, axis=1)
+        turn = np.array([[np.zeros_like(half), half], [-half, np.zeros_like(half)]])
+        sigma = np.array([[sxx, sxy], [sxy, syy]])
+        more = np.einsum("abn,bcn->acn", turn, sigma) - np.einsum("abn,bcn->acn", sigma, turn)
+        out[5], out[6], out[7] = out[5] + more[0, 0], out[6] + more[1, 1], out[7] + more[0, 1]
     return out, np.array([ux, uy])

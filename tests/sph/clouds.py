@@ -11,7 +11,7 @@ from sphstudy.sph.viscosity import Viscosity
 
 NOBODY = np.empty(0, np.int64)
 FREE = Constraints(NOBODY, np.empty(0), NOBODY, np.empty(0))
-TERMS = ("xsph", "viscosity", "artificial", "crack")
+TERMS = ("xsph", "viscosity", "artificial", "spin", "crack")
 
 
 def lattice_positions(columns=9, rows=8):
@@ -65,6 +65,7 @@ def model(rng, positions, terms=TERMS, constraints=FREE, damping=None, smoothing
         artificial=ArtificialStress(0.3, 4, float(kernel.value(shape, 1.0 / 1.5)))
         if "artificial" in terms
         else None,
+        spin=True if "spin" in terms else None,
         damping=damping,
         smoothing=smoothing,
         crack=middle_crack(positions) if "crack" in terms else None,

@@ -47,6 +47,7 @@ class Run:
         self.indicators = Indicators(problem)
         self._good = Snapshot(LAST_GOOD, 0.0, 0, system.fields(), 0.0)
         self._wave_speed = problem.body.material.wave_speed
+        self._spacing = min(problem.body.spacing_x, problem.body.spacing_y)
         self.loading_speed = math.nan
         self._chunk = 1
 
@@ -92,7 +93,7 @@ class Run:
                 self._diverged(stage, step, wrong)
                 return step
             self._sample(step)
-            wrong = breached(self.solution.history, self.problem.body.mean_spacing, self.config.solve)
+            wrong = breached(self.solution.history, self._spacing, self.config.solve)
             if wrong:
                 self._diverged(stage, step, wrong)
                 return step

@@ -144,3 +144,20 @@ def test_smearing_and_damping_follow_their_equations(rng):
     undamped, smoothed = brute_force.rates(made, state)
     constrain(made, rate, work)
     np.testing.assert_allclose(rate[2:4], undamped[2:4] - 0.4 * smoothed, atol=1e-12)
+
+
+@pytest.mark.interpreted
+def test_stress_turns_with_a_rigid_rotation_by_jaumanns_rate(rng):
+    """Inside a lattice that spins at Ω the rate of stress is Ω (Rσ - σR), but for the factor by which the
+    uncorrected gradient misses a linear field.
+    """
+    positions = lattice_positions(15, 15)
+    made, state = model(rng, positions, ("spin",)), random_state(rng, positions)
+    made = made._replace(mass=np.ones(225))
+    state[4], state[5], state[6], state[7] = 1.0, 2.0, -1.0, 0.5
+    state[2], state[3] = -0.3 * (positions[1] - 7.0), 0.3 * (positions[0] - 7.0)
+    rate, *_ = evaluate(made, state)
+    middle, still = 112, 0.3 * np.array([-2.0 * 0.5, 2.0 * 0.5, 2.0 + 1.0])
+    found = rate[5:, middle] / still
+    np.testing.assert_allclose(found, found[0], rtol=1e-12)
+    assert found[0] == pytest.approx(1.0, abs=0.05)

@@ -20,8 +20,10 @@ def fourfold_defect(place: np.ndarray, n: int) -> float:
 
 def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     """From the history: angular momentum, and the path of the tracked corner. From the last state: the
-    fourfold symmetry, which elasticity keeps.
+    fourfold symmetry, which elasticity keeps. Of modes, nothing.
     """
+    if not run.sizes.get("sample"):
+        return {}
     scene = config.scene
     momentum = run["history_angular_momentum"].values
     corner = np.array(

@@ -16,7 +16,9 @@ LATE = 0.75
 
 
 def measure(run: xr.Dataset, config) -> dict[str, Metric]:
-    """Metrics of whichever shock the scene has."""
+    """Metrics of whichever shock the scene has. Of modes, nothing."""
+    if not run.sizes.get("sample"):
+        return {}
     return _wave(run, config) if config.scene.shock == "wave" else _particle(run)
 
 

@@ -6,11 +6,14 @@ that of the restoring forces, and nothing can run away. The pattern fades out to
 neighbours are missing, and the forces would be those of another lattice.
 """
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from sphstudy.parameters import number, parameters
+from sphstudy.scenes import spin
 from sphstudy.scenes.problem import Problem, Stage
-from sphstudy.scenes.spin import SquareParameters, check, particles, square_body
+from sphstudy.scenes.spin import SquareParameters, particles, square_body
 from sphstudy.sph.constraints import Constraints
 
 __all__ = ["HEADLINE", "METRICS", "Parameters", "build", "check", "particles", "pattern"]
@@ -24,6 +27,13 @@ class Parameters(SquareParameters):
     """The square and the checkerboard."""
 
     amplitude: float = number("largest displacement, in spacings", gt=0, lt=0.25)
+
+
+def check(config) -> Iterator[str]:
+    """Complaints about resolution and solver."""
+    yield from spin.check(config)
+    if config.solve.name != "explicit":
+        yield f"solve={config.solve.name}: {config.scene.name} leaves no particle free; take explicit"
 
 
 def pattern(n: int) -> np.ndarray:

@@ -1,5 +1,7 @@
 """Restoring force of a checkerboard, from a record of springs of known stiffness."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -12,12 +14,17 @@ LAME_AND_SHEAR = 1e6 * 0.3 / (1.3 * 0.4) + 3.0 * 1e6 / 2.6
 """λ + 3µ of the scene's material."""
 
 
+@cache
+def configured(n):
+    with session() as hydra:
+        return hydra.points(["scene=checkerboard", f"n={n}"], sweep=False)[0][0].config
+
+
 def record(share, viscous=0.0, n=12, duration=3.0):
     """Every particle on a spring of this share of the physical stiffness, driven in `duration` (s), with
     so much of the last force as friction; and the configuration.
     """
-    with session() as hydra:
-        config = hydra.points(["scene=checkerboard", f"n={n}"], sweep=False)[0][0].config
+    config = configured(n)
     squares = float(((0.05 / n * pattern(n)) ** 2).sum())
     time = np.linspace(0.0, duration, 101)
     force = share * LAME_AND_SHEAR * np.pi**2 * squares * (time / duration + viscous)

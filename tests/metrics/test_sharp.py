@@ -1,5 +1,7 @@
 """A step load's and a displaced particle's metrics on records with known answers."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -10,6 +12,7 @@ from sphstudy.metrics import sharp
 from sphstudy.scenes.sharp import build
 
 
+@cache
 def setting(scene):
     with session() as hydra:
         config = hydra.points([f"scene={scene}", "n=7"], sweep=False)[0][0].config
@@ -29,6 +32,7 @@ def wave(shift=0.0, stiffer=1.0):
     data = {name: (("snapshot", "particle"), value[None]) for name, value in fields.items()}
     data |= {
         "snapshot_time": ("snapshot", [time]),
+        "history_time": ("sample", [0.0, time]),
         "reference_x": ("particle", body.x),
         "tag_held": ("particle", body.tags["held"].astype(np.int8)),
         "spacing_x": body.spacing_x,

@@ -67,17 +67,18 @@ def test_settings_that_make_no_scene_are_refused(scene, override, complaint):
 
 
 @pytest.mark.slow
-def test_step_load_keeps_its_front_and_viscosity_takes_its_noise(tmp_path):
-    common = {"scene": "sharp_wave", "method": "tl", "n": 5, "h": 1.3, "results": tmp_path}
-    noisy = sphstudy.run(**common)
+def test_step_load_rings_behind_its_front_without_viscosity_and_dissipates_with_it(tmp_path):
+    common = {"scene": "sharp_wave", "n": 9, "h": 1.3, "results": tmp_path}
+    noisy = sphstudy.run(method="tl", **common)
     assert abs(float(noisy["plateau_stress_error"])) < 0.02
     assert abs(float(noisy["front_lag"])) < 2.0
     assert 0.2 < float(noisy["stress_overshoot"]) < 0.34
     assert 1.0 < float(noisy["plateau_noise_ratio"]) < 3.0
-    damped = sphstudy.run(**common, **{"method.viscosity_linear": 1.0})
-    assert float(damped["plateau_noise_ratio"]) < 0.5
-    assert float(damped["stress_overshoot"]) < 0.1
-    assert float(damped["dissipated_energy"]) > 0.01
+    assert float(noisy["energy_drift"]) < 1e-3
+    smooth = sphstudy.run(method="thesis", **common)
+    assert float(smooth["plateau_noise_ratio"]) < 1.0
+    assert float(smooth["stress_overshoot"]) < 0.2
+    assert float(smooth["dissipated_energy"]) > 0.01
 
 
 @pytest.mark.slow
@@ -88,5 +89,5 @@ def test_displaced_particle_spreads_its_energy_unless_stress_knows_no_displaceme
     assert float(spread["hourglass_left"]) == pytest.approx(np.sqrt(0.5), abs=0.1)
     assert float(spread["energy_drift"]) < 0.01
     forgotten = sphstudy.run(method="thesis", **common)
-    assert float(forgotten["offset_left"]) == 1.0
+    assert float(forgotten["offset_left"]) == pytest.approx(1.0, abs=1e-12)
     assert float(forgotten["energy_drift"]) == 0.0

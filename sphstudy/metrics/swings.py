@@ -4,6 +4,7 @@ A fitted sine has one frequency and one decay rate; a plate that swings far, or 
 slows down, has neither.
 """
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -39,7 +40,7 @@ def swings(time: np.ndarray, displacement: np.ndarray) -> Swings:
     first = before + 1
     if displacement[0] == 0.0 and not (crossings.size and crossings[0] == time[0]):
         crossings, first = np.append(time[0], crossings), np.append(0, first)
-    peaks = [_peak(np.abs(displacement), a, b) for a, b in zip(first[:-1], first[1:], strict=True)]
+    peaks = [_peak(np.abs(displacement), a, b) for a, b in pairwise(first)]
     return Swings(crossings, np.array(peaks))
 
 

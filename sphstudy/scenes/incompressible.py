@@ -1,4 +1,4 @@
-"""The vibrating plate of a nearly incompressible material: whether it locks, and what its pressure does."""
+"""The vibrating plate of a nearly incompressible material: does it lock, and what of its pressure?"""
 
 from sphstudy.scenes.plate import Parameters, build, check, particles
 
@@ -8,6 +8,7 @@ METRICS = ("oscillation", "pressure", "regularity", "balance")
 HEADLINE = (
     "frequency_error_2d",
     "pressure_checkerboard",
+    "pressure_stripes",
     "amplitude_frequency_product",
     "fit_residual",
     "energy_drift",

@@ -1,4 +1,4 @@
-"""The vibrating plate swinging for long, or far: periods and amplitudes are read off its swings as well."""
+"""The vibrating plate swinging for long, or far: its swings are looked at one by one as well."""
 
 from sphstudy.scenes.plate import Parameters, build, check, particles
 

@@ -40,7 +40,7 @@ def swings(time: np.ndarray, displacement: np.ndarray) -> Swings:
     first = before + 1
     if displacement[0] == 0.0 and not (crossings.size and crossings[0] == time[0]):
         crossings, first = np.append(time[0], crossings), np.append(0, first)
-    peaks = [_peak(np.abs(displacement), a, b) for a, b in pairwise(first)]
+    peaks = [_peak(np.abs(displacement), a, b) for a, b in pairwise(first.tolist())]
     return Swings(crossings, np.array(peaks))
 
 

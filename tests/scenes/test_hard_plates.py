@@ -75,7 +75,7 @@ def test_total_lagrangian_plate_does_not_lock(folder):
 
 def test_total_lagrangian_plate_held_bent_stays_regular(folder):
     settings = {"scene.end_time": 16.0, "record.times": (11.0,)}
-    run = sphstudy.run(scene="long_bending", method="tl", h=1.3, n=5, results=folder, **settings)
+    run = sphstudy.run(scene="long_bending", method="tl", h=1.3, n=7, results=folder, **settings)
     assert outside(run, "long_bending") == set()
     assert float(run["spacing_spread_bottom"]) == pytest.approx(
         float(run["spacing_spread_bottom_11s"]), rel=1e-3

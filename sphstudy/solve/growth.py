@@ -15,12 +15,12 @@ SHAPED = 1e4
 """Kinetic energy gained, at a step too long, by which what grows fastest has come out of the noise."""
 
 BLOWN_UP = 1e6
-"""Energy over that at first: speeds are then a hundredth of the wave speed. Near its limit, Verlet's energy
-swings, but by less.
+"""Energy over that at first: speeds are then a hundredth of the wave speed. Near its limit, Verlet's
+energy swings, but by less.
 """
 
 GROWN = 1e-3
-"""By how much the mean energy of the last quarter of a trial exceeds that of the second, relatively, ..."""
+"""By how much the mean energy of a trial's last quarter exceeds that of the second, relatively, ..."""
 
 SCATTER = 5.0
 """... and by so many standard errors of the two means: below its limit, Verlet's energy swings."""
@@ -40,8 +40,8 @@ class Trial(NamedTuple):
 
 
 class Bracket(NamedTuple):
-    """The longest stable and the shortest unstable time step found, by the unit that they were searched in;
-    NaN where all were stable, or none. trials: how many, of how many steps in all.
+    """The longest stable and the shortest unstable time step found, in the unit that they were searched
+    in; NaN where all were stable, or none. trials: how many, of how many steps in all.
     """
 
     stable: float
@@ -64,8 +64,8 @@ def normalised(velocity: np.ndarray) -> np.ndarray:
 
 
 def fastest_growing(system: System, stage: Stage, steps: int) -> np.ndarray | None:
-    """Velocities [2, N] of what grows fastest out of those that the system starts with, of root mean square
-    1 m/s; None if nothing grows within so many steps.
+    """Velocities [2, N] of what grows fastest out of those that the system starts with, of root mean
+    square 1 m/s; None if nothing grows within so many steps.
     """
     if system.begin(stage, 0.0, None):
         return None

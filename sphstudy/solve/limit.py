@@ -143,7 +143,7 @@ def _message(found: Bracket) -> str:
 
 
 def _predicted(config, method) -> float:
-    """2/ω_max (s), the limit of Verlet's method without damping; NaN where the method has no stiffness."""
+    """2/ω_max (s), Verlet's limit without damping; NaN where the method has no stiffness."""
     if not hasattr(method, "highest_frequency"):
         return np.nan
     return 2.0 / method.highest_frequency(config)

@@ -97,6 +97,14 @@ def solver_module(name: str) -> ModuleType:
     return _module("solve", name)
 
 
+def headline(scene: str, solver: str) -> tuple[str, ...]:
+    """What tables show of a run first: the scene's metrics, or numbers of a solver that has none of them.
+
+    scene: kind of scene; solver: its name.
+    """
+    return getattr(solver_module(solver), "HEADLINE", scene_module(scene).HEADLINE)
+
+
 def _module(package: str, name: str) -> ModuleType:
     if not name.isidentifier():
         raise ConfigurationError([f"{package}: {name!r} is not the name of a module"])

@@ -10,7 +10,7 @@ import pandas as pd
 from sphstudy import study
 from sphstudy.effects import effects
 from sphstudy.record import STATUS
-from sphstudy.report import cheapest, render, tables, text
+from sphstudy.report import cheapest, render, tables, text, time_steps
 from sphstudy.report.render import Drawing
 from sphstudy.report.tables import Group, Setting, Table
 from sphstudy.results import Results
@@ -47,7 +47,7 @@ class Section:
     stored: bool
     drawings: list[Drawing]
     groups: list[GroupTables]
-    cheapest: list[Table]
+    overviews: list[Table]
     not_done: list[NotDone]
 
 
@@ -83,7 +83,7 @@ def section(results: Results, folder: Path) -> Section:
         stored=stored,
         drawings=render.draw_all(results, folder) if stored else [],
         groups=[_tables(group) for group in tables.groups(results, rows)] if stored else [],
-        cheapest=cheapest.tables(results) if stored else [],
+        overviews=[*cheapest.tables(results), *time_steps.tables(results)] if stored else [],
         not_done=[_not_done(row) for _, row in rows[rows["status"] != "done"].iterrows()],
     )
 

@@ -1,5 +1,6 @@
 """Particles of several runs of one scene beside each other: same scales, same view, state by state."""
 
+import textwrap
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -21,6 +22,9 @@ _UNITS = ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa"))
 
 _SLENDER = 2.2
 """Bodies that are so many times as long as high are drawn below each other."""
+
+_LETTERS = 96
+"""So many fit into the width of a figure."""
 
 _SHARE = 99.5
 """Percentile of the colours' end: a few particles must not take all the colours."""
@@ -74,6 +78,7 @@ class Panels:
         slender = view[1] - view[0] > _SLENDER * (view[3] - view[2])
         columns = 1 if slender else min(len(shown), 2 if len(shown) in (2, 4) else 3)
         rows = -(-len(shown) // columns)
+        self._letters = _LETTERS // columns
         width = TEXT_WIDTH / columns
         height = width * (view[3] - view[2]) / (view[1] - view[0]) + 0.5
         self.figure = Figure(figsize=(TEXT_WIDTH, rows * height + 0.75), layout="constrained")
@@ -112,7 +117,7 @@ class Panels:
             last = str(state["snapshot_label"].values) == LAST_GOOD
             when = f"$t$ = {number(float(one.times[k]), 3)} s"
             said = f"{one.outcome}, last good state, {when}" if last or over else when
-            axes.set_title(f"{one.label}\n{said}", fontsize="small")
+            axes.set_title(f"{textwrap.fill(one.label, self._letters)}\n{said}", fontsize="small")
 
     @property
     def end(self) -> float:

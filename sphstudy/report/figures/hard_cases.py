@@ -13,8 +13,8 @@ from sphstudy.stability.cases import judged
 _FRAMES = 40
 """An animation has no more of them."""
 
-_MOST = 6
-"""Panels of a figure at most."""
+_MOST = 9
+"""Panels of a figure at most: more cannot be read."""
 
 _SHARED = "the same colours and the same view in all panels, those of the sound runs."
 
@@ -71,7 +71,9 @@ def _panels(
             shown.append(Shown(run, label_of, case.judgement.outcome))
     if not shown:
         raise Missing(f"{results.name}: no run of scene {scene} with record.frames is stored")
-    return Panels(shown[:_MOST], quantity, label, symmetric)
+    if len(shown) > _MOST:
+        raise ValueError(f"{len(shown)} runs of scene {scene} keep frames, which at most {_MOST} should")
+    return Panels(shown, quantity, label, symmetric)
 
 
 def _at_the_end(panels: Panels) -> Figure:

@@ -52,6 +52,11 @@ def map(results: Results) -> Figure:
     cases = judged(results)
     if all(case.judgement.outcome == "missing" for case in cases):
         raise Missing(f"{results.name}: no run is stored")
+    return matrix(cases)
+
+
+def matrix(cases: list[Case]) -> Figure:
+    """The map of these runs: a row for each case, a column for each method and h."""
     grid = by_place(cases)
     rows, columns = grid.shape
     names = max(len(label) for label in grid.index)

@@ -21,7 +21,10 @@ _STRESSES = ("stress_xx", "stress_yy", "stress_xy")
 _UNITS = ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa"))
 
 _SLENDER = 2.2
-"""Bodies that are so many times as long as high are drawn below each other."""
+"""Bodies that are so many times as long as high are drawn below each other, if they are few."""
+
+_ACROSS = 3
+"""Panels beside each other at most."""
 
 _LETTERS = 96
 """So many fit into the width of a figure."""
@@ -49,9 +52,10 @@ def pressure(run: xr.Dataset, state: xr.Dataset) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Shown:
-    """A run as it is shown: its record, what it is called, and its outcome."""
+    """A run as it is shown: its record, the case that it is of, what it is called, and its outcome."""
 
     run: xr.Dataset
+    case: str
     label: str
     outcome: str
 
@@ -76,8 +80,8 @@ class Panels:
         )
         view = _view([s.run for s in sound])
         slender = view[1] - view[0] > _SLENDER * (view[3] - view[2])
-        columns = 1 if slender else min(len(shown), 2 if len(shown) in (2, 4) else 3)
-        rows = -(-len(shown) // columns)
+        columns, places = _arranged(shown, slender)
+        rows = max(places) // columns + 1
         self._letters = _LETTERS // columns
         width = TEXT_WIDTH / columns
         height = width * (view[3] - view[2]) / (view[1] - view[0]) + 0.5
@@ -86,11 +90,13 @@ class Panels:
         axes = list(self.figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat)
         limits, scale, unit = self._colours(sound, symmetric)
         self._scale = scale
+        self.axes = [axes[place] for place in places]
         self._bodies = [
-            self._body(*pair, view, limits, symmetric) for pair in zip(axes, shown, strict=False)
+            self._body(panel, one, view, limits, symmetric)
+            for panel, one in zip(self.axes, shown, strict=True)
         ]
-        for panel in axes[len(shown) :]:
-            panel.set_axis_off()
+        for place in set(range(len(axes))) - set(places):
+            axes[place].set_axis_off()
         self.figure.colorbar(
             self._bodies[0],
             ax=axes,
@@ -103,7 +109,6 @@ class Panels:
         )
         self.figure.supxlabel("$x$ (m)", fontsize="medium")
         self.figure.supylabel("$y$ (m)", fontsize="medium")
-        self.axes = axes[: len(shown)]
 
     def show(self, time: float) -> None:
         """Shows of each run the last state until then (s), which is also said."""
@@ -115,7 +120,8 @@ class Panels:
             body.set_array(self._quantity(one.run, state) / self._scale)
             over = one.outcome != DONE and one.outcome != "degraded" and k == one.times.size - 1
             last = str(state["snapshot_label"].values) == LAST_GOOD
-            when = f"$t$ = {number(float(one.times[k]), 3)} s"
+            # Plain text: formulas take a third of the time of a frame.
+            when = f"t = {number(float(one.times[k]), 3)} s"
             said = f"{one.outcome}, last good state, {when}" if last or over else when
             axes.set_title(f"{textwrap.fill(one.label, self._letters)}\n{said}", fontsize="small")
 
@@ -164,6 +170,18 @@ class Panels:
         axes.label_outer()
         axes.grid(False)
         return body
+
+
+def _arranged(shown: list[Shown], slender: bool) -> tuple[int, list[int]]:
+    """Columns of panels, and the place of each run: cases below each other if that leaves room."""
+    cases = [one.case for one in shown]
+    several = list(dict.fromkeys(cases))
+    widest = max(cases.count(case) for case in several)
+    if len(several) > 1 and widest <= _ACROSS:
+        rows = [several.index(case) for case in cases]
+        return widest, [row * widest + rows[:k].count(row) for k, row in enumerate(rows)]
+    few, across = (3, 2) if slender else (1, 2 if len(shown) in (2, 4) else _ACROSS)
+    return (1 if len(shown) <= few else across), list(range(len(shown)))
 
 
 def _view(runs: list[xr.Dataset]) -> tuple[float, float, float, float]:

@@ -1,7 +1,6 @@
 """Draws the figures of a study to files, and says in words why one could not be drawn."""
 
 import base64
-import io
 import math
 import sys
 import traceback
@@ -10,6 +9,8 @@ from pathlib import Path
 
 import joblib
 import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -22,7 +23,7 @@ _SCREEN = 96
 _COLOURS = 128
 """Of an animation: enough for a map of colours, and fewer bytes than 256."""
 
-_PIXELS = 14e6
+_PIXELS = 18e6
 """Of all frames of an animation together: a bit more than a megabyte."""
 
 
@@ -111,13 +112,14 @@ def _write_moving(animation: Animation, path: Path) -> None:
     figure, frames = animation.figure, []
     pixels = animation.frames * _SCREEN**2 * figure.get_figwidth() * figure.get_figheight()
     resolution = _SCREEN * min(1.0, math.sqrt(_PIXELS / pixels))
+    canvas = FigureCanvasAgg(figure)
+    figure.set_dpi(resolution)
     for k in range(animation.frames):
         animation.draw(k)
-        with io.BytesIO() as file:
-            figure.savefig(file, format="png", dpi=resolution)
-            # Laid out once: nothing but what moves may move.
-            figure.set_layout_engine("none")
-            frames.append(Image.open(file).convert("RGB"))
+        canvas.draw()
+        # Laid out once: nothing but what moves may move.
+        figure.set_layout_engine("none")
+        frames.append(Image.fromarray(np.array(canvas.buffer_rgba())).convert("RGB"))
     width, height = frames[0].size
     chosen = frames[:: max(1, len(frames) // 4)]
     together = Image.new("RGB", (width, height * len(chosen)))

@@ -1,6 +1,6 @@
 """Particle pictures of hard cases, method beside method: of each scene, `hard_cases.<function>.<scene>`.
 
-Shown are those runs of the scene that keep frames (record.frames), in the order of the study.
+Shown are those runs of the scene that keep frames (record.frames), case by case.
 """
 
 from matplotlib.figure import Figure
@@ -56,24 +56,26 @@ def pressure_motion(results: Results, scene: str) -> Animation:
 
 
 def _panels(
-    results: Results, scene: str, quantity: Quantity, label: str, symmetric: bool = False
+    results: Results, scene: str, quantity: Quantity, title: str, symmetric: bool = False
 ) -> Panels:
     """Raises Missing if no run of the scene that keeps frames is stored."""
     shown = []
     cases = [case for case in judged(results) if case.scene == scene]
     cases = [case for case in cases if results.config_at(case.row).record.frames > 1]
-    several = len({case.settings for case in cases}) > 1
+    # Methods beside each other, case by case.
+    settings = list(dict.fromkeys(case.settings for case in cases))
+    cases.sort(key=lambda case: settings.index(case.settings))
     for case in cases:
         run = results.stored_at(case.row)
         if run is not None and run.sizes.get("snapshot"):
-            words = [case.settings] if several else []
-            label_of = ", ".join([*words, case.variant, f"$\\tilde{{h}}$ = {case.h:g}"])
-            shown.append(Shown(run, label_of, case.judgement.outcome))
+            words = [case.settings] if len(settings) > 1 else []
+            label = ", ".join([*words, case.variant, f"h {case.h:g}"])
+            shown.append(Shown(run, case.settings, label, case.judgement.outcome))
     if not shown:
         raise Missing(f"{results.name}: no run of scene {scene} with record.frames is stored")
     if len(shown) > _MOST:
         raise ValueError(f"{len(shown)} runs of scene {scene} keep frames, which at most {_MOST} should")
-    return Panels(shown, quantity, label, symmetric)
+    return Panels(shown, quantity, title, symmetric)
 
 
 def _at_the_end(panels: Panels) -> Figure:

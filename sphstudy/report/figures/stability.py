@@ -100,6 +100,15 @@ def _indicator(found: Judgement) -> str:
     return words if len(words) <= _LETTERS else words[: _LETTERS - 1] + "…"
 
 
+def _wrapped(variant: str, width: int) -> str:
+    """A setting and its value stay on a line if they fit there."""
+    parts = (
+        part.replace(" ", "\N{NO-BREAK SPACE}") if len(part) <= width else part
+        for part in variant.split(", ")
+    )
+    return textwrap.fill(", ".join(parts), width)
+
+
 def _frame(axes: Axes, grid: pd.DataFrame, cases: list[Case]) -> None:
     """Cases on the left, h below, above it the method over all of its h."""
     rows, columns = grid.shape
@@ -114,7 +123,7 @@ def _frame(axes: Axes, grid: pd.DataFrame, cases: list[Case]) -> None:
         side.set_visible(False)
     for variant in dict.fromkeys(variant for variant, _ in places):
         those = [k for k, (other, _) in enumerate(places) if other == variant]
-        label = textwrap.fill(variant, _LETTERS * len(those))
+        label = _wrapped(variant, _LETTERS * len(those))
         axes.text(those[0] + 0.06, -0.15, label, ha="left", va="bottom", fontsize=7.5, linespacing=1.05)
         if those[0]:
             axes.axvline(those[0], color="0.4", linewidth=0.8)

@@ -90,7 +90,7 @@ def tip_speed(scene: Parameters) -> float:
 
 def build(config) -> Problem:
     """Problem of the plate: clamp, initial velocity of a beam's lowest mode, one free stage."""
-    scene = config.scene
+    scene, plate = config.scene, body(config)
     omega = beam.thin_plate_frequency(scene.E, scene.nu, scene.rho, scene.L, scene.L / scene.slenderness)
-    duration = scene.periods * 2.0 * np.pi / omega
-    return vibrating(body(config), scene.L, tip_speed(scene), duration)
+    velocity = beam.mode_shape(plate.x, scene.L) * tip_speed(scene)
+    return vibrating(plate, velocity, scene.periods * 2.0 * np.pi / omega)

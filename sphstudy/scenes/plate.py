@@ -111,21 +111,18 @@ def build(config) -> Problem:
     """Problem of the vibrating plate: clamp, initial velocity (3.2), one free stage."""
     scene = config.scene
     omega = beam.fundamental_frequency(scene.E, scene.rho, scene.L, scene.L / scene.slenderness)
-    speed, duration = scene.H0 * scene.L * omega, scene.periods * 2.0 * np.pi / omega
     body = plate_body(config)
-    return vibrating(body, scene.L, speed, duration)
+    velocity = beam.mode_shape(body.x, scene.L) * scene.H0 * scene.L * omega
+    return vibrating(body, velocity, scene.periods * 2.0 * np.pi / omega)
 
 
-def vibrating(body: Body, length: float, speed: float, duration: float) -> Problem:
+def vibrating(body: Body, velocity: np.ndarray, duration: float) -> Problem:
     """A plate, held where it is tagged "clamped", that is pushed and left to itself for a time (s).
 
-    speed (m/s): the initial one at x = length (m); that of particles at 0 < x follows the lowest mode of
-    a clamped beam.
+    velocity [N]: initial v_y (m/s) of the particles at x > 0; all others begin at rest.
     """
     clamped = np.flatnonzero(body.tags["clamped"])
     still = np.zeros(clamped.size)
-    velocity = beam.mode_shape(body.x, length) * speed
-    velocity[body.x <= 0.0] = 0.0
     return Problem(
         body=body,
         constraints=Constraints(clamped, still, clamped, still),
@@ -133,6 +130,6 @@ def vibrating(body: Body, length: float, speed: float, duration: float) -> Probl
         step_spacing=body.spacing_y,
         energy_compliance=body.material.compliance,
         velocity_x=np.zeros(body.x.size),
-        velocity_y=velocity,
+        velocity_y=np.where(body.x > 0.0, velocity, 0.0),
         tracked=end_particle(body),
     )

@@ -84,8 +84,8 @@ def _limit(axes: Axes, own: pd.DataFrame, number: int) -> None:
     "How far the error of the plate's frequency against two-dimensional elasticity is from that with the "
     "shortest step, over the size of the latter, against the time step over the largest stable one. "
     "Dotted: a tenth of the error that the discretisation in space makes. Rings: the longest step worth "
-    "taking, with its C: stable, and no shorter one is off by more. Crosses along the upper edge: runs that "
-    "diverged. What varies below 10⁻⁴ is the fit of ω to the samples; below 10⁻⁶ it is drawn there.",
+    "taking, with its C: stable, and no shorter one is off by more. Crosses along the upper edge: runs "
+    "that diverged. What varies below 10⁻⁴ is the fit of ω to samples; below 10⁻⁶ it is drawn there.",
 )
 def worth(results: Results) -> Figure:
     found = stable_steps.changes(results.table)

@@ -17,6 +17,7 @@ sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids 
   sphstudy compare mode1                           against the stored reference; exit status 1 outside
   sphstudy compare mode1 printed                   against the values that the thesis prints
   sphstudy compare before.nc after.nc tolerance=1e-6    two datasets, cell by cell
+  sphstudy judge stability                         which stored runs are sound, and when others went bad
   sphstudy measure mode1                           metrics again from stored fields
   sphstudy reference mode1                         stored results become the stored reference
   sphstudy extrapolate mode1 G2_error --order 1    to zero particle spacing, with uncertainty
@@ -92,6 +93,10 @@ def _command(arguments: list[str]) -> int:
         from sphstudy import review
 
         return getattr(review, f"{command}_command")(arguments[1:])
+    if command == "judge":
+        from sphstudy.stability.command import judge_command
+
+        return judge_command(arguments[1:])
     if command == "extrapolate":
         from sphstudy import convergence
 

@@ -14,6 +14,8 @@ from sphstudy.report import cheapest, render, tables, text, time_steps
 from sphstudy.report.render import Drawing
 from sphstudy.report.tables import Group, Setting, Table
 from sphstudy.results import Results
+from sphstudy.stability.cases import judged
+from sphstudy.stability.tables import bounds, stability_map
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,7 @@ class Section:
     drawings: list[Drawing]
     groups: list[GroupTables]
     overviews: list[Table]
+    judged: list[Table]
     not_done: list[NotDone]
 
 
@@ -84,8 +87,14 @@ def section(results: Results, folder: Path) -> Section:
         drawings=render.draw_all(results, folder) if stored else [],
         groups=[_tables(group) for group in tables.groups(results, rows)] if stored else [],
         overviews=[*cheapest.tables(results), *time_steps.tables(results)] if stored else [],
+        judged=_judged(results) if stored and definition.judged else [],
         not_done=[_not_done(row) for _, row in rows[rows["status"] != "done"].iterrows()],
     )
+
+
+def _judged(results: Results) -> list[Table]:
+    cases = judged(results)
+    return [stability_map(cases), bounds(cases)]
 
 
 def _tables(group: Group) -> GroupTables:

@@ -69,12 +69,12 @@ def _against_shortest(chosen: pd.DataFrame, metric: str) -> pd.DataFrame:
 
 
 def worth(found: pd.DataFrame) -> pd.DataFrame:
-    """For each scheme and h of `changes` the longest step worth taking: all up to it are done, and change
-    the error by less than HARMLESS.
+    """For each scheme and h of `changes` the longest step worth taking: it is stable, and none up to it
+    changes the error by HARMLESS or more. A run may end before a step that is too long has done its harm.
     """
     best = []
     for _, chosen in found.groupby([*SCHEME, "h"]):
-        good = (chosen["change"] < HARMLESS).to_numpy()
+        good = ((chosen["change"] < HARMLESS) & (chosen["share"] <= 1.0)).to_numpy()
         # A step that happens to be good beyond one that is not is not to be relied on.
         count = int(np.argmin(good)) if not good.all() else good.size
         if count:

@@ -95,6 +95,13 @@ def test_a_good_step_beyond_a_bad_one_is_not_worth_taking(full):
     assert stable_steps.worth(own)["courant"].tolist() == [0.4]
 
 
+def test_an_unstable_step_that_did_no_harm_yet_is_not_worth_taking(full):
+    found = stable_steps.changes(full.table)
+    own = found[(found["method"] == "thesis") & (found["h"] == 1.3)].assign(change=0.0)
+    assert own["share"].max() > 1.0
+    assert stable_steps.worth(own)["courant"].tolist() == [1.2]
+
+
 def test_every_limit_is_drawn_beside_its_prediction(full):
     drawing = drawn(figures.limits, full)
     assert [axes.get_title() for axes in drawing.axes] == list(figures.PANELS.values())

@@ -84,8 +84,8 @@ def _limit(axes: Axes, own: pd.DataFrame, number: int) -> None:
     "How far the error of the plate's frequency against two-dimensional elasticity is from that with the "
     "shortest step, over the size of the latter, against the time step over the largest stable one. "
     "Dotted: a tenth of the error that the discretisation in space makes. Rings: the longest step worth "
-    "taking, with its C: no shorter one is off by more. Crosses: runs that diverged. Differences below "
-    "10⁻⁶, the digits of the fit, are drawn there.",
+    "taking, with its C: stable, and no shorter one is off by more. Crosses along the upper edge: runs "
+    "that diverged. What varies below 10⁻⁴ is the fit of ω to samples; below 10⁻⁶ it is drawn there.",
 )
 def worth(results: Results) -> Figure:
     found = stable_steps.changes(results.table)
@@ -117,7 +117,7 @@ def _change(axes: Axes, own: pd.DataFrame, best: pd.DataFrame, number: int, h: f
     done = own[own["status"] == "done"].iloc[1:]
     axes.plot(done["share"], np.maximum(done["change"], _FLOOR), **look, linewidth=1.0, label=label)
     failed = own[own["status"] == "diverged"]
-    axes.plot(failed["share"], np.full(len(failed), 0.4 + 0.15 * number), "x", color=f"C{number}")
+    axes.plot(failed["share"], np.full(len(failed), 10.0 * 1.7**number), "x", color=f"C{number}")
     ring: dict[str, Any] = {"markersize": 11, "markerfacecolor": "none", "markeredgecolor": f"C{number}"}
     axes.plot(best["share"], np.maximum(best["change"], _FLOOR), "o", **ring, zorder=4)
 

@@ -95,6 +95,18 @@ def of_scene(scene: str) -> list[Bound]:
     return [*own, *(bound for bound in read(GENERAL) if bound.quantity not in named)]
 
 
+def check() -> None:
+    """Raises ConfigurationError with every complaint about any file of bounds."""
+    complaints = []
+    for path in sorted(_folder().glob("*.yaml")):
+        try:
+            read(path.stem)
+        except ConfigurationError as error:
+            complaints += error.complaints
+    if complaints:
+        raise ConfigurationError(complaints)
+
+
 @cache
 def read(name: str) -> list[Bound]:
     """The bounds of one file. Raises ConfigurationError with every complaint, naming file and key."""

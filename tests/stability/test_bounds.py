@@ -72,6 +72,19 @@ def test_every_complaint_is_made_at_once(folder):
     assert len(raised.value.complaints) == 3
 
 
+def test_all_files_are_checked_together(folder):
+    (folder / "any.yaml").write_text(GOOD)
+    bounds.check()
+    for name in ("plate", "rings"):
+        (folder / f"{name}.yaml").write_text("source: s\n")
+    with pytest.raises(ConfigurationError) as raised:
+        bounds.check()
+    assert [c.partition(":")[0] for c in raised.value.complaints] == [
+        "bounds/plate.yaml",
+        "bounds/rings.yaml",
+    ]
+
+
 def test_a_scene_adds_to_the_general_bounds_and_replaces_them(folder):
     general = "history.speed: {at_most: 1, reason: c0}, rebound: {at_most: 9, reason: r}"
     (folder / "any.yaml").write_text(f"source: g\nbounds: {{{general}}}\n")

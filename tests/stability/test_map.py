@@ -15,8 +15,10 @@ from sphstudy.composition import session
 from sphstudy.report import figure, page, render
 from sphstudy.report.figures import hard_cases, stability
 from sphstudy.results import Missing
+from sphstudy.stability import tables
+from sphstudy.stability.bounds import Quoted
 from sphstudy.stability.cases import by_place, judged
-from sphstudy.stability.tables import bounds, counts, stability_map
+from sphstudy.stability.tables import bounds, counts, quoted, stability_map
 from tests.report.sample import Reader
 from tests.stability.synthetic import SAMPLES, load, made_up
 
@@ -100,6 +102,22 @@ def test_the_bounds_stand_with_their_reasons(found):
     assert all(row[5].text and row[6].text for row in table.rows)
     # Nothing of these has a mirror, which need not be said run by run.
     assert all("mirror" not in row[-1].text for row in stability_map(judged(found)).rows)
+
+
+def test_what_others_found_stands_beside_what_is_found_here(found, monkeypatch):
+    assert quoted(found, judged(found)) is None
+    one = Quoted(quantity="period", units="s", between=(0.283, 0.285), source="a paper")
+    monkeypatch.setattr(tables, "read_quoted", lambda scene: [one] if scene == "plate" else [])
+    with_period = copy.copy(found)
+    period = np.where(found.table["method"] == "tl", 0.25 + 0.01 * found.table["scene.H0"], np.nan)
+    with_period.table = found.table.assign(period=period)
+    (row,) = quoted(with_period, judged(found)).rows
+    assert [cell.text for cell in row] == [
+        "plate", "period (s)", "0.2830 to 0.2850", "a paper",
+        "tl: 0.2502 to 0.2510; tl, courant 1.5: 0.2510",
+    ]  # fmt: skip
+    (row,) = quoted(found, judged(found)).rows
+    assert row[-1].text == "–"
 
 
 def drawn(name, found):

@@ -18,6 +18,7 @@ from sphstudy.config import ConfigurationError
 from sphstudy.record import STATUS
 from sphstudy.results import load
 from sphstudy.runner import measured
+from sphstudy.stability import bounds
 from sphstudy.store import Store, read_dataset, write
 from sphstudy.tables import console, print_tables
 
@@ -32,7 +33,9 @@ def report_name(name: str, overrides: list[str]) -> str:
 
 
 def check(name: str) -> None:
-    """Raises ConfigurationError if a study names a claim, figure or study that does not exist."""
+    """Raises ConfigurationError if a study names a claim, figure or study that does not exist, or is to
+    be judged while a file of bounds is wrong.
+    """
     # Drawing takes a second to load, which no other command should wait for.
     from sphstudy.report import figure
 
@@ -42,6 +45,8 @@ def check(name: str) -> None:
             claim.find(claim_id)
         for figure_name in definition.figures:
             figure.find(figure_name)
+        if definition.judged:
+            bounds.check()
 
 
 def review(hydra: Session, name: str, overrides: list[str], folder: str) -> int:

@@ -26,8 +26,11 @@ _SLENDER = 2.2
 _ACROSS = 3
 """Panels beside each other at most."""
 
-_LETTERS = 96
-"""So many fit into the width of a figure."""
+_WIDE = 9.0
+"""Width (inch) of a figure with so many."""
+
+_LETTERS = 14
+"""Of a title in an inch."""
 
 _SHARE = 99.5
 """Percentile of the colours' end: a few particles must not take all the colours."""
@@ -82,10 +85,11 @@ class Panels:
         slender = view[1] - view[0] > _SLENDER * (view[3] - view[2])
         columns, places = _arranged(shown, slender)
         rows = max(places) // columns + 1
-        self._letters = _LETTERS // columns
-        width = TEXT_WIDTH / columns
+        total = TEXT_WIDTH if columns < _ACROSS else _WIDE
+        self._letters = int(_LETTERS * total / columns)
+        width = total / columns
         height = width * (view[3] - view[2]) / (view[1] - view[0]) + 0.5
-        self.figure = Figure(figsize=(TEXT_WIDTH, rows * height + 0.75), layout="constrained")
+        self.figure = Figure(figsize=(total, rows * height + 0.75), layout="constrained")
         # A list: an array of axes would be copied apart from the figure on its way to another process.
         axes = list(self.figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat)
         limits, scale, unit = self._colours(sound, symmetric)

@@ -15,7 +15,7 @@ from sphstudy.report.render import Drawing
 from sphstudy.report.tables import Group, Setting, Table
 from sphstudy.results import Results
 from sphstudy.stability.cases import judged
-from sphstudy.stability.tables import bounds, stability_map
+from sphstudy.stability.tables import bounds, quoted, stability_map
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,8 @@ def section(results: Results, folder: Path) -> Section:
 
 def _judged(results: Results) -> list[Table]:
     cases = judged(results)
-    return [stability_map(cases), bounds(cases)]
+    found = (stability_map(cases), bounds(cases), quoted(results, cases))
+    return [table for table in found if table is not None]
 
 
 def _tables(group: Group) -> GroupTables:

@@ -7,6 +7,8 @@
       <metric>:                                              # several, each for some of the points
         - {where: {n: 10}, at_most: 0.013, reason: …}
         - {where: {n: 20}, at_most: 0.003, reason: …}
+    quoted:                       # what others found, to be shown beside; nothing is judged by it
+      - {quantity: period, units: s, between: [0.283, 0.285], source: where it is printed}
 
 `any.yaml` holds for every scene; what a scene says of the same quantity stands in its place.
 """
@@ -41,9 +43,20 @@ class _Bound:
 
 
 @parameters
+class Quoted:
+    """What others found for a scene."""
+
+    quantity: str = described("a metric of the scene's records")
+    units: str = described("UDUNITS")
+    between: tuple[float, float] = described("smallest and largest value found")
+    source: str = described("who found it, and where it is printed")
+
+
+@parameters
 class _File:
     source: str = described("where the case comes from")
     bounds: dict[str, Any] = described("bound, or several, of each quantity")
+    quoted: list[Quoted] = described("what others found")
 
 
 @dataclass(frozen=True)
@@ -90,25 +103,48 @@ def for_point(scene: str, flat: dict[str, Any]) -> list[Bound]:
 
 def of_scene(scene: str) -> list[Bound]:
     """All bounds of a scene, whatever the settings. Raises ConfigurationError as `for_point`."""
-    own = read(scene) if (_folder() / f"{scene}.yaml").is_file() else []
+    own = read(scene) if _path(scene).is_file() else []
     named = {bound.quantity for bound in own}
     return [*own, *(bound for bound in read(GENERAL) if bound.quantity not in named)]
 
 
-@cache
+def check() -> None:
+    """Raises ConfigurationError with every complaint about any file of bounds."""
+    complaints = []
+    for path in sorted(_folder().glob("*.yaml")):
+        try:
+            read(path.stem)
+        except ConfigurationError as error:
+            complaints += error.complaints
+    if complaints:
+        raise ConfigurationError(complaints)
+
+
+def quoted(scene: str) -> list[Quoted]:
+    """What others found for a scene. Raises ConfigurationError as `read`."""
+    return _read(_path(scene))[1] if _path(scene).is_file() else []
+
+
 def read(name: str) -> list[Bound]:
     """The bounds of one file. Raises ConfigurationError with every complaint, naming file and key."""
-    return _read(_folder() / f"{name}.yaml")
+    return _read(_path(name))[0]
+
+
+def _path(name: str) -> Path:
+    return _folder() / f"{name}.yaml"
 
 
 def _folder() -> Path:
     return configuration_folder() / "bounds"
 
 
-def _read(path: Path) -> list[Bound]:
+@cache
+def _read(path: Path) -> tuple[list[Bound], list[Quoted]]:
     complaints: list[str] = []
     try:
         values = yaml.safe_load(path.read_text(encoding="utf-8"))
+        # What is no mapping is left for the validation to refuse.
+        values = {"quoted": []} | values if isinstance(values, dict) else values
         file = TypeAdapter(_File).validate_python(values)
     except yaml.YAMLError as error:
         raise ConfigurationError([f"bounds/{path.name}: {' '.join(str(error).split())}"]) from None
@@ -133,7 +169,7 @@ def _read(path: Path) -> list[Bound]:
                 found.append(Bound(quantity, *limits, file.source, general=path.stem == GENERAL))
     if complaints:
         raise ConfigurationError(complaints)
-    return found
+    return found, file.quoted
 
 
 def _wrong(bound: _Bound) -> list[str]:

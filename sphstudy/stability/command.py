@@ -8,7 +8,7 @@ from sphstudy.report.tables import Table
 from sphstudy.results import load
 from sphstudy.review import named
 from sphstudy.stability.cases import judged
-from sphstudy.stability.tables import bounds, counts, stability_map
+from sphstudy.stability.tables import bounds, counts, quoted, stability_map
 from sphstudy.tables import console
 
 
@@ -19,9 +19,11 @@ def judge_command(arguments: list[str]) -> int:
     """
     name, overrides = named(arguments, "judge")
     with session() as hydra:
-        cases = judged(load(name, hydra, overrides))
-    for table in (stability_map(cases), bounds(cases)):
-        _print(table)
+        results = load(name, hydra, overrides)
+        cases = judged(results)
+    for table in (stability_map(cases), bounds(cases), quoted(results, cases)):
+        if table is not None:
+            _print(table)
     print(f"judged: {counts(cases)}")
     return 0
 

@@ -1,11 +1,13 @@
-"""Tables of judged runs: the stability map run by run, and the bounds with their reasons."""
+"""Tables of judged runs: the stability map run by run, the bounds with their reasons, values quoted."""
 
 import math
 from collections import Counter
 
 from sphstudy.report import text
 from sphstudy.report.tables import Cell, Column, Table
-from sphstudy.stability.bounds import Bound
+from sphstudy.results import Results
+from sphstudy.stability.bounds import Bound, Quoted
+from sphstudy.stability.bounds import quoted as read_quoted
 from sphstudy.stability.cases import OUTCOMES, Case
 from sphstudy.stability.judge import DEGRADED, DIVERGED, DONE
 
@@ -83,6 +85,49 @@ def _bound(scene: str, bound: Bound, cases: list[Case]) -> list[Cell]:
         Cell(bound.reason),
         Cell(bound.source),
     ]
+
+
+def quoted(results: Results, cases: list[Case]) -> Table | None:
+    """A row for each value that others found for a scene, beside those of finite runs here; None if no
+    scene has any.
+    """
+    columns = [
+        Column("scene", numeric=False),
+        Column("quantity", numeric=False),
+        Column("found", "by others", False),
+        Column("by", numeric=False),
+        Column("here", "smallest and largest by each method, of runs that did not diverge", False),
+    ]
+    rows = [
+        _quoted(results, [case for case in cases if case.scene == scene], one)
+        for scene in dict.fromkeys(case.scene for case in cases)
+        for one in read_quoted(scene)
+    ]
+    return Table("What others found", columns, rows) if rows else None
+
+
+def _quoted(results: Results, cases: list[Case], one: Quoted) -> list[Cell]:
+    found: dict[str, list[float]] = {}
+    for case in cases:
+        value = (
+            results.table[one.quantity].get(case.row, math.nan)
+            if one.quantity in results.table
+            else math.nan
+        )
+        if not math.isnan(value):
+            found.setdefault(case.variant, []).append(value)
+    here = [f"{variant}: {_range(min(values), max(values))}" for variant, values in found.items()]
+    return [
+        Cell(cases[0].scene),
+        Cell(text.heading(one.quantity, one.units)),
+        Cell(_range(*one.between)),
+        Cell(one.source),
+        Cell("; ".join(here) or text.NOTHING),
+    ]
+
+
+def _range(low: float, high: float) -> str:
+    return text.number(low) if low == high else f"{text.number(low)} to {text.number(high)}"
 
 
 def counts(cases: list[Case]) -> str:

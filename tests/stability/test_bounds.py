@@ -13,10 +13,9 @@ GOOD = "source: a paper\nbounds:\n  rebound: {at_least: 0.4, at_most: 1, reason:
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
+    # Read once a path: each test has its own.
     monkeypatch.setattr(bounds, "_folder", lambda: tmp_path)
-    read.cache_clear()
-    yield tmp_path
-    read.cache_clear()
+    return tmp_path
 
 
 def bound(**limits):
@@ -39,6 +38,10 @@ def test_all_files_are_sound_and_name_a_scene(path):
         ("bounds: {}\n", "source: "),
         ("source: s\n", "bounds: "),
         ("source: s\nbounds: {}\nextra: 1\n", "extra: "),
+        (
+            "source: s\nbounds: {}\nquoted: [{quantity: a, units: s, between: [1], source: b}]\n",
+            "quoted.0.between",
+        ),
         ("source: [\n", "expected"),
         ("", "dictionary"),
         (
@@ -70,6 +73,19 @@ def test_every_complaint_is_made_at_once(folder):
     with pytest.raises(ConfigurationError) as raised:
         read("rings")
     assert len(raised.value.complaints) == 3
+
+
+def test_all_files_are_checked_together(folder):
+    (folder / "any.yaml").write_text(GOOD)
+    bounds.check()
+    for name in ("plate", "rings"):
+        (folder / f"{name}.yaml").write_text("source: s\n")
+    with pytest.raises(ConfigurationError) as raised:
+        bounds.check()
+    assert [c.partition(":")[0] for c in raised.value.complaints] == [
+        "bounds/plate.yaml",
+        "bounds/rings.yaml",
+    ]
 
 
 def test_a_scene_adds_to_the_general_bounds_and_replaces_them(folder):
@@ -108,6 +124,19 @@ def test_excess_is_the_distance_outside():
     np.testing.assert_array_equal(bound(at_most=1.0).excess(values), values - 1.0)
     np.testing.assert_array_equal(bound(at_least=0.0).excess(values), -values)
     np.testing.assert_array_equal(bound(at_most=1.0, at_least=0.0).excess(values)[:3], (1.0, -0.25, 2.0))
+
+
+def test_what_others_found_is_read(folder):
+    assert bounds.quoted("rings") == []
+    said = "{quantity: period, units: s, between: [0.283, 0.285], source: a paper}"
+    (folder / "rings.yaml").write_text(f"{GOOD}quoted: [{said}]\n")
+    (one,) = bounds.quoted("rings")
+    assert (one.quantity, one.units, one.between, one.source) == (
+        "period",
+        "s",
+        (0.283, 0.285),
+        "a paper",
+    )
 
 
 def test_every_indicator_says_what_it_is():

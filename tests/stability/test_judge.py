@@ -84,11 +84,11 @@ def test_what_has_no_result_is_not_judged(config):
 
 
 def test_energy_is_compared_with_the_most_put_in(config):
-    # 1 J at first; 2 W for 10 s put in 20 J more, of which 3 J too many are found at 5 s.
-    found = 1.0 + 2.0 * TIME + 3.0 * (TIME == 5.0) - 6.3 * (TIME == 8.0)
+    # 1 J at first; 2 W for 10 s put in 20 J more, of which 3 J too many are found at last.
+    found = 1.0 + 2.0 * TIME + 3.0 * (TIME == 10.0) - 6.3 * (TIME == 8.0)
     run = made_up(config, kinetic_energy=found, strain_energy=STILL, constraint_power=STILL + 2.0)
     gain = indicators.measure(run, "energy_gain")
-    np.testing.assert_allclose(gain, 3.0 / 21.0 * (TIME == 5.0) - 0.3 * (TIME == 8.0), atol=1e-15)
+    np.testing.assert_allclose(gain, 3.0 / 21.0 * (TIME == 10.0) - 0.3 * (TIME == 8.0), atol=1e-15)
     np.testing.assert_allclose(indicators.measure(run, "energy_error"), np.abs(gain))
 
 

@@ -12,11 +12,13 @@ from PIL import Image, ImageSequence
 from sphstudy import study
 from sphstudy.__main__ import main
 from sphstudy.composition import session
-from sphstudy.report import figure, page, render
+from sphstudy.report import figure, page, panels, render
 from sphstudy.report.figures import hard_cases, stability
 from sphstudy.results import Missing
+from sphstudy.stability import tables
+from sphstudy.stability.bounds import Quoted
 from sphstudy.stability.cases import by_place, judged
-from sphstudy.stability.tables import bounds, counts, stability_map
+from sphstudy.stability.tables import bounds, counts, quoted, stability_map
 from tests.report.sample import Reader
 from tests.stability.synthetic import SAMPLES, load, made_up
 
@@ -37,7 +39,9 @@ MOVED = np.array(((0.5, 1.5), (0.0, 0.25)))
 
 
 def make(flat, config):
-    """thesis, h = 1.3: degraded; with H0 = 0.1: diverged at 1.5, missing at 1.3. Bending: failed."""
+    """thesis, h = 1.3: degraded; with H0 = 0.1: diverged at 1.5, missing at 1.3. Bending: failed. The
+    second of two runs that share a place: degraded.
+    """
     if flat["scene"] == "bending":
         return made_up(config, "failed", message="ValueError")
     if flat["method"] == "thesis" and flat["scene.H0"] == 0.1:
@@ -48,9 +52,9 @@ def make(flat, config):
             else None
         )
     states = [(t, np.eye(2) + 0.1 * t * MOVED) for t in (0.0, 2.0, 4.0, 6.0)]
-    return made_up(
-        config, states=states, **(BROKEN if (flat["method"], flat["h"]) == ("thesis", 1.3) else {})
-    )
+    alone = flat["record.frames"] == 0 and flat["solve.courant"] == 0.8 and flat["method"] == "tl"
+    broken = alone or (flat["method"], flat["h"]) == ("thesis", 1.3)
+    return made_up(config, states=states, **(BROKEN if broken else {}))
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +80,7 @@ def test_runs_are_placed_by_what_tells_them_apart(found):
     outcomes = [[cases[k].judgement.outcome if k >= 0 else "" for k in row] for row in grid.to_numpy()]
     assert outcomes == [
         ["degraded", "done", "done", "done", "done", "", ""],
-        ["missing", "diverged", "", "done", "done", "done", ""],
+        ["missing", "diverged", "", "done", "degraded", "done", ""],
         ["", "", "", "", "", "", "failed"],
     ]
 
@@ -90,16 +94,32 @@ def test_the_map_is_a_table(found):
     assert degraded[5:9] == ["4", "speed", "96\u202f437", "at most 1"]
     diverged = next(row for row in texts if row[4] == "diverged")
     assert (diverged[5], diverged[6], diverged[9]) == ("10", "", "a step too far")
-    assert counts(judged(found)) == "8 done, 1 degraded, 1 diverged, 1 missing, 1 failed"
+    assert counts(judged(found)) == "7 done, 2 degraded, 1 diverged, 1 missing, 1 failed"
 
 
 def test_the_bounds_stand_with_their_reasons(found):
     table = bounds(judged(found))
     (speed,) = [[cell.text for cell in row] for row in table.rows if row[1].text == "speed"]
-    assert speed[:5] == ["any", "speed", "at most 1", "", "1 of 10"]
+    assert speed[:5] == ["any", "speed", "at most 1", "", "2 of 10"]
     assert all(row[5].text and row[6].text for row in table.rows)
     # Nothing of these has a mirror, which need not be said run by run.
     assert all("mirror" not in row[-1].text for row in stability_map(judged(found)).rows)
+
+
+def test_what_others_found_stands_beside_what_is_found_here(found, monkeypatch):
+    assert quoted(found, judged(found)) is None
+    one = Quoted(quantity="period", units="s", between=(0.283, 0.285), source="a paper")
+    monkeypatch.setattr(tables, "read_quoted", lambda scene: [one] if scene == "plate" else [])
+    with_period = copy.copy(found)
+    period = np.where(found.table["method"] == "tl", 0.25 + 0.01 * found.table["scene.H0"], np.nan)
+    with_period.table = found.table.assign(period=period)
+    (row,) = quoted(with_period, judged(found)).rows
+    assert [cell.text for cell in row] == [
+        "plate", "period (s)", "0.2830 to 0.2850", "a paper",
+        "tl: 0.2502 to 0.2510; tl, courant 1.5: 0.2510",
+    ]  # fmt: skip
+    (row,) = quoted(found, judged(found)).rows
+    assert row[-1].text == "–"
 
 
 def drawn(name, found):
@@ -158,6 +178,23 @@ def test_pictures_show_where_particles_are_at_last(found):
     assert highest == pytest.approx(2.003 * np.sqrt(0.5 * (1.0 + 0.3**2 + 0.7**2)), rel=1e-3)
 
 
+@pytest.mark.parametrize(
+    ("cases", "slender", "columns", "places"),
+    [
+        ("aaa", False, 3, [0, 1, 2]),
+        ("aaa", True, 1, [0, 1, 2]),
+        ("aaaa", False, 2, [0, 1, 2, 3]),
+        ("aabb", True, 2, [0, 1, 2, 3]),
+        ("abbcc", False, 2, [0, 2, 3, 4, 5]),
+        ("aaabb", False, 3, [0, 1, 2, 3, 4]),
+        ("aaaab", False, 3, [0, 1, 2, 3, 4]),
+    ],
+)
+def test_cases_stand_below_each_other_if_there_is_room(cases, slender, columns, places):
+    shown = [panels.Shown(None, case, "", "done") for case in cases]
+    assert panels._arranged(shown, slender) == (columns, places)
+
+
 def test_an_animation_goes_through_the_states(found, tmp_path):
     few = copy.copy(found)
     few.table = found.table[(found.table["method"] == "tl") & (found.table["solve.courant"] == 0.8)]
@@ -210,7 +247,7 @@ def test_the_command_prints_the_map(found, folder, monkeypatch, capsys):
     monkeypatch.setattr(study, "folder", lambda: folder)
     assert main(["judge", "made_up", f"results={folder / 'results'}"]) == 0
     said = capsys.readouterr().out
-    assert "judged: 8 done, 1 degraded, 1 diverged, 1 missing, 1 failed" in said
+    assert "judged: 7 done, 2 degraded, 1 diverged, 1 missing, 1 failed" in said
     assert "Bounds of a sound run" in said
     assert main(["judge"]) == 2
     assert "judge: name one of" in capsys.readouterr().err

@@ -69,7 +69,7 @@ def _panels(
         run = results.stored_at(case.row)
         if run is not None and run.sizes.get("snapshot"):
             words = [case.settings] if len(settings) > 1 else []
-            label = ", ".join([*words, case.variant, f"h {case.h:g}"])
+            label = ", ".join([*words, case.variant, f"h\N{NO-BREAK SPACE}{case.h:g}"])
             shown.append(Shown(run, case.settings, label, case.judgement.outcome))
     if not shown:
         raise Missing(f"{results.name}: no run of scene {scene} with record.frames is stored")

@@ -23,8 +23,10 @@ _LOOKS: dict[str, tuple[str, str, str]] = {
 }
 """Colour of a cell, of what is written in it, and its sign: darker is worse, in grey as well."""
 
-_OTHER = ("#bbbbbb", "black", "?")
-"""Runs without a result: failed, timed out, not there."""
+_OTHER = ("white", "black", "?")
+"""Runs without a result: failed, timed out, not there. Hatched."""
+
+_HATCH: dict[str, Any] = {"hatch": "////", "edgecolor": "0.8"}
 
 _SHORT = {
     "energy_gain": "energy",
@@ -73,14 +75,15 @@ def matrix(cases: list[Case]) -> Figure:
         for outcome, (colour, _, sign) in _LOOKS.items()
     ]
     if seen - set(_LOOKS):
-        handles.append(Patch(facecolor=_OTHER[0], edgecolor="0.5", label=f"{_OTHER[2]} no result"))
+        handles.append(Patch(facecolor=_OTHER[0], label=f"{_OTHER[2]} no result", **_HATCH))
     drawing.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return drawing
 
 
 def _cell(axes: Axes, column: int, row: int, found: Judgement) -> None:
     colour, ink, sign = _LOOKS.get(found.outcome, _OTHER)
-    axes.add_patch(Rectangle((column, row), 1.0, 1.0, facecolor=colour, edgecolor="white", linewidth=1.0))
+    edges = {"edgecolor": "white"} if found.outcome in _LOOKS else _HATCH
+    axes.add_patch(Rectangle((column, row), 1.0, 1.0, facecolor=colour, linewidth=1.0, **edges))
     middle: dict[str, Any] = {"ha": "center", "va": "center", "color": ink}
     if found.outcome == DONE:
         axes.text(column + 0.5, row + 0.5, sign, fontsize=9, **middle)

@@ -1,4 +1,4 @@
-"""Patch test (Irons 1966) on disordered particles: an affine displacement of the frame must continue inside.
+"""Patch test (Irons 1966) on disordered particles: what is affine on the frame must be affine inside.
 
 Particles carry equal volumes, however they lie: that they do not tile the square is part of the case.
 """
@@ -26,7 +26,7 @@ HEADLINE = (
 
 @parameters
 class Parameters:
-    """A square of `n` by `n` particles, centred at the origin, and the affine displacement of its frame."""
+    """A square of `n` by `n` particles about the origin, and the affine displacement of its frame."""
 
     name: str = described("name of the scene")
     kind: str = described("module that builds it")

@@ -6,7 +6,7 @@ import pytest
 import sphstudy
 from sphstudy.config import ConfigurationError
 from sphstudy.scenes import radial
-from tests.scenes.test_tension import configured
+from tests.scenes.test_tension import UNDAMPED, configured
 
 
 def test_the_disc_is_cut_from_a_symmetric_lattice():
@@ -47,8 +47,9 @@ def test_a_disc_without_a_middle_is_refused():
 
 @pytest.mark.slow
 def test_tension_without_shear_is_enough_for_the_thesis_method_to_clump(tmp_path):
-    settings = {"scene": "radial", "h": 1.3, "n": 20, "scene.rim_layers": 4, "scene.end_time": 6}
-    clumped, kept = (sphstudy.run(method=m, results=tmp_path, **settings) for m in ("thesis", "tl"))
+    settings = {"scene": "radial", "h": 1.5, "n": 24, "scene.rim_layers": 5, "scene.end_time": 6}
+    methods = (UNDAMPED, {"method": "tl"})
+    clumped, kept = (sphstudy.run(**m, **settings, results=tmp_path) for m in methods)
     assert float(clumped["stress_share"]) < 0.3
     assert float(clumped["spacing_smallest"]) < 0.5
     assert float(kept["stress_share"]) == pytest.approx(1.0, abs=0.01)

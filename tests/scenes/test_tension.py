@@ -76,22 +76,26 @@ def test_resolution_and_strain_are_looked_at(setting, complaint):
         configured("scene=tension", setting)
 
 
+UNDAMPED = {"method": "thesis", "solve.damping": 0.0}
+"""Damping hardly matters to what clumps; without it the compiled code is that of the vibrating plate."""
+
+
 @pytest.mark.slow
 def test_at_one_percent_the_thesis_method_loses_the_stress_that_tl_keeps(tmp_path):
-    settings = {"scene": "tension", "h": 1.5, "n": 7, "scene.end_time": 12, "results": tmp_path}
-    lost, kept = (sphstudy.run(method=m, **settings) for m in ("thesis", "tl"))
+    settings = {"scene": "tension", "h": 1.5, "n": 7, "results": tmp_path}
+    lost, kept = (sphstudy.run(**m, **settings) for m in (UNDAMPED, {"method": "tl"}))
     assert float(lost["stress_share"]) < 0.3
     assert float(lost["history_hourglass_amplitude"][-1]) > 0.02
-    assert float(kept["stress_share"]) == pytest.approx(1.0, abs=0.03)
+    assert float(kept["stress_share"]) == pytest.approx(1.0, abs=0.05)
     assert float(kept["spacing_smallest"]) > 0.99
 
 
 @pytest.mark.slow
 def test_at_five_percent_the_thesis_method_tears_and_tl_holds_fifty(tmp_path):
     settings = {"scene": "tension", "h": 1.5, "n": 7, "scene.end_time": 6, "results": tmp_path}
-    torn = sphstudy.run(method="thesis", **{"scene.strain": 0.05}, **settings)
+    torn = sphstudy.run(**{"scene.strain": 0.05}, **UNDAMPED, **settings)
     whole = sphstudy.run(method="tl", **{"scene.strain": 0.5}, **settings)
     assert (float(torn["torn"]), float(whole["torn"])) == (1.0, 0.0)
     assert abs(float(torn["stress_share_section"])) < 0.2
-    assert float(whole["stress_share"]) == pytest.approx(1.0, abs=0.03)
+    assert float(whole["stress_share"]) == pytest.approx(1.0, abs=0.05)
     assert float(whole["gap_largest"]) < 1.1

@@ -40,8 +40,8 @@ _SHORT = {
     "mirror_defect": "mirror",
 }
 
-_LETTERS = 11
-"""So many fit into a cell."""
+_LETTERS = 17.0
+"""So many fit into an inch."""
 
 
 @figure(
@@ -64,11 +64,12 @@ def matrix(cases: list[Case]) -> Figure:
     names = max(len(label) for label in grid.index)
     left = min(2.6, 0.3 + 0.068 * names)
     width = max(TEXT_WIDTH, left + 0.62 * columns)
+    letters = int(_LETTERS * (width - left) / columns)
     drawing = Figure(figsize=(width, 0.32 * rows + 1.7), layout="constrained")
     axes = drawing.subplots()
     for row, column in np.argwhere(grid.to_numpy() >= 0):
-        _cell(axes, column, row, cases[grid.iat[row, column]].judgement)
-    _frame(axes, grid, cases)
+        _cell(axes, column, row, cases[grid.iat[row, column]].judgement, letters)
+    _frame(axes, grid, letters)
     seen = {case.judgement.outcome for case in cases}
     handles = [
         Patch(facecolor=colour, edgecolor="0.5", label=f"{sign} {outcome}")
@@ -80,7 +81,7 @@ def matrix(cases: list[Case]) -> Figure:
     return drawing
 
 
-def _cell(axes: Axes, column: int, row: int, found: Judgement) -> None:
+def _cell(axes: Axes, column: int, row: int, found: Judgement, letters: int) -> None:
     colour, ink, sign = _LOOKS.get(found.outcome, _OTHER)
     edges = {"edgecolor": "white"} if found.outcome in _LOOKS else _HATCH
     axes.add_patch(Rectangle((column, row), 1.0, 1.0, facecolor=colour, linewidth=1.0, **edges))
@@ -90,17 +91,17 @@ def _cell(axes: Axes, column: int, row: int, found: Judgement) -> None:
         return
     when = "" if np.isnan(found.time) else f" {number(found.time, 2)}"
     axes.text(column + 0.5, row + 0.3, f"{sign}{when}", fontsize=6.5, **middle)
-    axes.text(column + 0.5, row + 0.72, _indicator(found), fontsize=5.5, **middle)
+    axes.text(column + 0.5, row + 0.72, _indicator(found, letters), fontsize=5.5, **middle)
 
 
-def _indicator(found: Judgement) -> str:
+def _indicator(found: Judgement, letters: int) -> str:
     if not found.breaches:
         return "" if found.outcome == DIVERGED else found.outcome
     bound = found.breaches[0].bound
     if bound.indicator:
         return _SHORT[bound.indicator]
     words = bound.quantity.replace("_", " ")
-    return words if len(words) <= _LETTERS else words[: _LETTERS - 1] + "…"
+    return words if len(words) <= letters else words[: letters - 1] + "…"
 
 
 def _wrapped(variant: str, width: int) -> str:
@@ -112,7 +113,7 @@ def _wrapped(variant: str, width: int) -> str:
     return textwrap.fill(", ".join(parts), width)
 
 
-def _frame(axes: Axes, grid: pd.DataFrame, cases: list[Case]) -> None:
+def _frame(axes: Axes, grid: pd.DataFrame, letters: int) -> None:
     """Cases on the left, h below, above it the method over all of its h."""
     rows, columns = grid.shape
     axes.set(xlim=(0, columns), ylim=(rows, 0))
@@ -126,7 +127,7 @@ def _frame(axes: Axes, grid: pd.DataFrame, cases: list[Case]) -> None:
         side.set_visible(False)
     for variant in dict.fromkeys(variant for variant, _ in places):
         those = [k for k, (other, _) in enumerate(places) if other == variant]
-        label = _wrapped(variant, _LETTERS * len(those))
+        label = _wrapped(variant, letters * len(those))
         axes.text(those[0] + 0.06, -0.15, label, ha="left", va="bottom", fontsize=7.5, linespacing=1.05)
         if those[0]:
             axes.axvline(those[0], color="0.4", linewidth=0.8)

@@ -167,8 +167,8 @@ def heun_lives_by_viscosity(results: Results) -> Finding:
 
 @claim(
     "H6",
-    "Colliding rings: the thesis's method breaks them; with Jaumann's rate and artificial stress it holds "
-    "at 0.06 c0 and breaks them at 0.12 c0; the total Lagrangian method breaks nothing.",
+    "Colliding rings: the thesis's method breaks them; with Jaumann's rate and artificial stress it "
+    "holds at 0.06 c0 and breaks them at 0.12 c0; the total Lagrangian method breaks nothing.",
     "Gray, Monaghan & Swift 2001, and found before this program",
     reproduced="broken bonds at both speeds without repairs, at 0.12 c0 with them, none otherwise",
     partly="the total Lagrangian method breaks none, and the thesis's method does at both speeds",

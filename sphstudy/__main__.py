@@ -23,6 +23,8 @@ sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids 
   sphstudy advise scene=plate error=0.1%           the cheapest setting for an error, from stored points
   sphstudy peers                                   other codes on the plate, set up and run side by side
   sphstudy status                                  what the results folder holds, run by run
+  sphstudy status mode1                            how far a study is, how fast, and what is left
+  sphstudy prune                                   stale records and their space; --yes removes them
   sphstudy list                                    scenes, methods, solvers, metrics, studies
   sphstudy describe scene plate                    every setting of one of them: value, unit, meaning
 
@@ -33,7 +35,10 @@ settings (key=value, before or after -m; several values with commas make a sweep
   results=FOLDER                                   where records go (default: results)
   checkpoint=60                                    seconds between two checkpoints of a long run
   threads=2                                        of one long run by steps: the same bits, sooner
-  hydra/launcher=joblib hydra.launcher.n_jobs=4    how many runs at once (default: one per core)
+  hydra.launcher.n_jobs=4                          how many runs at once (default: one per core)
+  hydra/launcher=slurm                             runs as jobs of a cluster (basic: one after the other)
+  time_limit=600 memory_limit=2                    of one run (s, GiB): it ends as timeout, as failed
+  retry=failed                                     runs that failed (timeout, all) are tried again
 
 flags
   -m, --multirun   run every combination of the values given
@@ -56,7 +61,7 @@ _FLAGS = {
     "--force": "force",
     "--dry-run": "dry run",
 }
-_LOOKING = ("status", "list", "describe")
+_LOOKING = ("list", "describe")
 _REVIEWING = ("report", "compare", "measure", "reference")
 
 
@@ -92,6 +97,15 @@ def _command(arguments: list[str]) -> int:
         from sphstudy import review
 
         return getattr(review, f"{command}_command")(arguments[1:])
+    if command == "status":
+        from sphstudy import status
+
+        return status.status_command(arguments[1:])
+    if command == "prune":
+        from sphstudy import prune
+
+        rest = [a for a in arguments[1:] if a != "--yes"]
+        return prune.prune_command(rest, yes="--yes" in arguments)
     if command == "extrapolate":
         from sphstudy import convergence
 

@@ -1,5 +1,6 @@
 """From the command line to points: Hydra composes, wrong input is answered before anything runs."""
 
+import dataclasses
 import difflib
 import os
 from collections.abc import Iterator
@@ -9,30 +10,47 @@ from functools import cache
 from typing import Any
 
 from hydra import initialize_config_dir
-from hydra._internal.callbacks import Callbacks
 from hydra._internal.core_plugins.basic_sweeper import BasicSweeper
 from hydra.core.global_hydra import GlobalHydra
 from hydra.core.override_parser.overrides_parser import OverridesParser
 from hydra.core.override_parser.types import Override
-from hydra.core.plugins import Plugins
 from hydra.errors import HydraException
-from hydra.plugins.launcher import Launcher
-from hydra.types import HydraContext, RunMode, TaskFunction
+from hydra.types import RunMode
 from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
-from sphstudy.config import ConfigurationError, RunConfig, configuration_folder, solver_module, validate
+from sphstudy.config import (
+    ConfigurationError,
+    RunConfig,
+    checked,
+    configuration_folder,
+    solver_module,
+    validate,
+)
+from sphstudy.execution import RETRIES, Execution
+
+LAUNCHERS = ("local", "basic", "slurm")
+"""Side by side on this machine, one after the other in this process, jobs of a SLURM cluster."""
 
 _LAUNCHER = ("hydra/launcher", "hydra.launcher")
 
 
 @dataclass(frozen=True)
 class Point:
-    """One run of a sweep: the overrides that make it, the configuration they make, its threads."""
+    """One run of a sweep: the overrides that make it, the configuration they make, how it is run."""
 
     overrides: tuple[str, ...]
     config: RunConfig
-    threads: int = 1
+    execution: Execution
+    retry: str = "none"
+
+
+@dataclass(frozen=True)
+class Launcher:
+    """What gets runs done: one of LAUNCHERS, and its settings (conf/hydra/launcher)."""
+
+    name: str
+    settings: dict[str, Any]
 
 
 class _NotValid(ConfigurationError):
@@ -72,13 +90,13 @@ class Session:
             try:
                 composed = self._compose(choice)
                 results.add(str(composed.pop("results")))
-                if not (isinstance(seconds := composed.pop("checkpoint"), int | float) and seconds > 0):
-                    raise ConfigurationError([f"checkpoint={seconds}: should be a number greater than 0"])
-                threads = composed.pop("threads")
+                retry, execution = composed.pop("retry"), taken_execution(composed)
+                if retry not in RETRIES:
+                    raise ConfigurationError([f"retry={retry}: there is {', '.join(RETRIES)}"])
                 config = self._validated(composed)
-                if complaint := _too_many(threads, config):
+                if complaint := _too_many(execution.threads, config):
                     raise ConfigurationError([complaint])
-                points.append(Point(tuple(choice), config, threads))
+                points.append(Point(tuple(choice), config, execution, retry))
             except _NotValid as error:
                 if skipped is None:
                     complaints |= dict.fromkeys(error.complaints)
@@ -160,17 +178,26 @@ class Session:
             raise ConfigurationError(complaints)
         return _plain(config)
 
-    def launcher(self, task: TaskFunction, overrides: list[str]) -> Launcher:
-        """The launcher that the configuration and the overrides name, set up to run `task`."""
+    def launcher(self, overrides: list[str]) -> Launcher:
+        """The launcher that the configuration and the overrides name.
+
+        Raises ConfigurationError if it is not offered, or if a setting of it does not exist or is wrong.
+        """
+        for override in overrides:
+            key, _, value = override.partition("=")
+            if key == "hydra/launcher" and value not in LAUNCHERS:
+                raise ConfigurationError([f"{override}: there is {', '.join(LAUNCHERS)}"])
         try:
             config = self._loader.load_configuration("config", overrides, RunMode.MULTIRUN)
-            return Plugins.instance().instantiate_launcher(
-                hydra_context=HydraContext(config_loader=self._loader, callbacks=Callbacks()),
-                task_function=task,
-                config=config,
-            )
         except HydraException as error:
             raise ConfigurationError([f"{' '.join(overrides)}: {error}".splitlines()[0]]) from None
+        settings: Any = OmegaConf.to_container(config.hydra.launcher)
+        jobs = settings.get("n_jobs")
+        if jobs is not None and (type(jobs) is not int or (jobs < 1 and jobs != -1)):
+            raise ConfigurationError(
+                [f"hydra.launcher.n_jobs={jobs}: should be a whole number above 0, or -1: one per core"]
+            )
+        return Launcher(config.hydra.runtime.choices["hydra/launcher"], settings)
 
 
 def launcher_overrides(arguments: list[str]) -> list[str]:
@@ -186,11 +213,24 @@ def session() -> Iterator[Session]:
         yield Session()
 
 
-def _too_many(threads: Any, config: RunConfig) -> str | None:
+def taken_execution(composed: dict[str, Any]) -> Execution:
+    """How a run is to be carried out, taken out of what Hydra composed.
+
+    Raises ConfigurationError with every complaint.
+    """
+    complaints: list[str] = []
+    values = {field.name: composed.pop(field.name) for field in dataclasses.fields(Execution)}
+    found = checked(Execution, values, "", complaints)
+    if complaints:
+        raise ConfigurationError(complaints)
+    return found
+
+
+def _too_many(threads: int, config: RunConfig) -> str | None:
     """What is wrong with so many threads for this run."""
     cores = os.cpu_count() or 1
-    if not isinstance(threads, int) or isinstance(threads, bool) or not 1 <= threads <= cores:
-        return f"threads={threads}: should be a whole number from 1 to {cores}, this machine's cores"
+    if threads > cores:
+        return f"threads={threads}: this machine has {cores} cores"
     if threads > 1 and not solver_module(config.solve.name).THREADS:
         return f"threads={threads}: solver {config.solve.name} runs on one thread"
     return None

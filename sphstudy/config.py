@@ -121,9 +121,9 @@ def validate(composed: dict[str, Any]) -> RunConfig:
         "solve": solver_module(composed["solve"]["name"]),
     }
     for part, module in modules.items():
-        parts[part] = _checked(module.Parameters, composed[part], f"{part}.", complaints)
+        parts[part] = checked(module.Parameters, composed[part], f"{part}.", complaints)
     rest = {key: composed[key] for key in ("h", "n", "seed", "record")}
-    config = _checked(RunConfig, {**parts, **rest}, "", complaints)
+    config = checked(RunConfig, {**parts, **rest}, "", complaints)
     if complaints:
         raise ConfigurationError(complaints)
     complaints += modules["scene"].check(config)
@@ -146,7 +146,8 @@ def _rounded(values: Any) -> Any:
     return float(f"{values:.12g}") if isinstance(values, float) else values
 
 
-def _checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
+def checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
+    """The values as an instance of a class of parameters; None, and complaints added, if they are not."""
     try:
         return TypeAdapter(cls).validate_python(values)
     except ValidationError as error:

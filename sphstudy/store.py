@@ -1,9 +1,11 @@
 """The store: one netCDF file a run, named by what determines its numbers, written atomically.
 
 <results>/runs/<label>-<key>.nc             the record
-<results>/runs/<label>-<key>.running.json   while it is being computed
+<results>/runs/<label>-<key>.running.json   while it is being computed: who does, and how far it is
 <results>/runs/<label>-<key>.checkpoint     where a long run goes on after an interruption
-<results>/runs/<label>-<key>.log            traceback of a failed run
+<results>/runs/<label>-<key>.log            what became of it, try after try, with tracebacks and warnings
+<results>/runs/<label>-<key>.unreadable     a file of that name that was no record, set aside
+<results>/runs/.index.sqlite                summaries of records, kept so that 20 000 need not be opened
 """
 
 import math
@@ -11,31 +13,26 @@ import os
 import sys
 import tempfile
 import threading
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import netCDF4
 import xarray as xr
 
 from sphstudy import identity
+from sphstudy.claim import is_alive
 from sphstudy.config import ConfigurationError, RunConfig
+from sphstudy.index import Index, Summary, plain
 from sphstudy.record import STATUS
 
 Format = Literal["NETCDF4", "NETCDF3_64BIT"]
 
 
-@dataclass(frozen=True)
-class Summary:
-    """A record without its fields: outcome, global attributes, and each metric and cost with its own."""
-
-    status: str
-    attributes: dict[str, Any]
-    numbers: dict[str, tuple[float, dict[str, Any]]]
-
-
 FILES = threading.RLock()
 """Held while a netCDF file is open: the library is not made for threads, and the display is one."""
+
+UNREADABLE = (OSError, LookupError, RuntimeError, ValueError, AttributeError, TypeError)
+"""What reading a file that is no record, or a damaged one, may raise."""
 
 REUSED = ("done", "diverged")
 """Outcomes that are results: such a point is not computed again."""
@@ -47,6 +44,7 @@ class Store:
     def __init__(self, folder: str | Path):
         self.folder = Path(folder)
         self.runs = self.folder / "runs"
+        self.index = Index(self.runs / ".index.sqlite")
 
     def prepare(self) -> None:
         """Makes the folders. Raises ConfigurationError if they cannot be written."""
@@ -63,7 +61,7 @@ class Store:
         """Where the record of this run lies, or would."""
         return self.runs / f"{config.label}-{identity.key(config)}.nc"
 
-    def marker_path(self, config: RunConfig) -> Path:
+    def claim_path(self, config: RunConfig) -> Path:
         """The file that exists while the run is being computed."""
         return self.record_path(config).with_suffix(".running.json")
 
@@ -72,7 +70,7 @@ class Store:
         return self.record_path(config).with_suffix(".checkpoint")
 
     def log_path(self, config: RunConfig) -> Path:
-        """Where a failed run leaves its traceback."""
+        """What became of the run, try after try."""
         return self.record_path(config).with_suffix(".log")
 
     def read(self, config: RunConfig) -> xr.Dataset | None:
@@ -81,33 +79,63 @@ class Store:
 
     def summary(self, config: RunConfig) -> Summary | None:
         """The record's summary, or None; a file that cannot be read is set aside."""
-        path = self.record_path(config)
-        if not path.exists():
-            return None
+        return self.summary_at(self.record_path(config))
+
+    def summary_at(self, path: Path) -> Summary | None:
+        """The same of a record by its path. From the index, if the file is the one that was seen then."""
         try:
-            # Twenty times faster than through xarray, which matters for a report on a hundred runs.
-            with FILES, netCDF4.Dataset(path) as run:
-                status = STATUS[int(run["status"][...])]
-                attributes = {name: run.getncattr(name) for name in run.ncattrs()}
-                own = {
-                    name: {key: text for key, text in v.__dict__.items() if not key.startswith("_")}
-                    for name, v in run.variables.items()
-                    if v.ndim == 0
-                }
-                numbers = {
-                    name: (float(run[name][...].filled(math.nan)), described)
-                    for name, described in own.items()
-                    if described.get("group") in ("metric", "cost")
-                }
-        except (OSError, LookupError, RuntimeError) as error:
+            found = path.stat()
+        except OSError:
+            return None
+        stamp = (found.st_mtime_ns, found.st_size)
+        if (known := self.index.get(path.name, stamp)) is not None:
+            return known
+        try:
+            summary = summarised(path)
+        except UNREADABLE as error:
             _set_aside(path, error)
             return None
-        return Summary(status, attributes, numbers)
+        self.index.put(path.name, stamp, summary)
+        return summary
+
+    def stamp(self, config: RunConfig) -> int:
+        """When the record was written (ns), 0 if there is none: changes whenever it is written again."""
+        try:
+            return self.record_path(config).stat().st_mtime_ns
+        except OSError:
+            return 0
 
     def status(self, config: RunConfig) -> str:
-        """Outcome of a run, "missing" if there is no record."""
+        """Outcome of a run; without a record "running", "interrupted" or "missing"."""
+        claim = self.claim_path(config)
+        if is_alive(claim):
+            return "running"
         summary = self.summary(config)
-        return "missing" if summary is None else summary.status
+        if summary is not None:
+            return summary.status
+        lost = claim.exists() or self.checkpoint_path(config).exists()
+        return "interrupted" if lost else "missing"
+
+
+def summarised(path: Path) -> Summary:
+    """The summary of a record file; raises one of UNREADABLE if it is none."""
+    # Twenty times faster than through xarray, which matters for a report on a hundred runs.
+    with FILES, netCDF4.Dataset(path) as run:
+        status = STATUS[int(run["status"][...])]
+        attributes = {name: run.getncattr(name) for name in run.ncattrs()}
+        if "configuration" not in attributes:
+            raise ValueError("not a record of this program")
+        own = {
+            name: {key: plain(text) for key, text in v.__dict__.items() if not key.startswith("_")}
+            for name, v in run.variables.items()
+            if v.ndim == 0
+        }
+        numbers = {
+            name: (float(run[name][...].filled(math.nan)), described)
+            for name, described in own.items()
+            if described.get("group") in ("metric", "cost")
+        }
+    return Summary(status, {name: plain(value) for name, value in attributes.items()}, numbers)
 
 
 def read(path: Path) -> xr.Dataset | None:
@@ -120,7 +148,7 @@ def read(path: Path) -> xr.Dataset | None:
         if "status" not in run or "configuration" not in run.attrs:
             raise ValueError("not a record of this program")
         return run
-    except (OSError, ValueError, RuntimeError) as error:
+    except UNREADABLE as error:
         _set_aside(path, error)
         return None
 

@@ -6,8 +6,8 @@ Scenes and methods are found by the `kind` in their YAML file: module `sphstudy.
 
 import dataclasses
 import importlib
-import json
 import os
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -48,8 +48,8 @@ class RunConfig:
 
     def as_dict(self) -> dict[str, Any]:
         """Nested plain dictionary: the resolved configuration as it is stored and hashed."""
-        return json.loads(TypeAdapter(RunConfig).dump_json(self, warnings=False)) | {
-            part: json.loads(TypeAdapter(type(value)).dump_json(value))
+        return adapter(RunConfig).dump_python(self, mode="json", warnings=False) | {
+            part: adapter(type(value)).dump_python(value, mode="json")
             for part in ("scene", "method", "solve")
             for value in (getattr(self, part),)
         }
@@ -106,6 +106,12 @@ def _module(package: str, name: str) -> ModuleType:
         raise ConfigurationError([f"{package}: there is no module {name!r} ({error})"]) from None
 
 
+@cache
+def adapter(cls: Any) -> TypeAdapter:
+    """What checks values against a class of parameters, made once."""
+    return TypeAdapter(cls)
+
+
 def validate(composed: dict[str, Any]) -> RunConfig:
     """The configuration of a run from the plain dictionary that Hydra composed.
 
@@ -149,7 +155,7 @@ def _rounded(values: Any) -> Any:
 def checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
     """The values as an instance of a class of parameters; None, and complaints added, if they are not."""
     try:
-        return TypeAdapter(cls).validate_python(values)
+        return adapter(cls).validate_python(values)
     except ValidationError as error:
         for item in error.errors():
             key = prefix + ".".join(str(part) for part in item["loc"])

@@ -1,5 +1,6 @@
 """Command line: separates sub-commands and flags from overrides, and says how it ended."""
 
+import importlib
 import sys
 
 from sphstudy.config import ConfigurationError
@@ -17,6 +18,7 @@ sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids 
   sphstudy compare mode1                           against the stored reference; exit status 1 outside
   sphstudy compare mode1 printed                   against the values that the thesis prints
   sphstudy compare before.nc after.nc tolerance=1e-6    two datasets, cell by cell
+  sphstudy judge stability                         which stored runs are sound, and when others went bad
   sphstudy measure mode1                           metrics again from stored fields
   sphstudy reference mode1                         stored results become the stored reference
   sphstudy extrapolate mode1 G2_error --order 1    to zero particle spacing, with uncertainty
@@ -61,8 +63,21 @@ _FLAGS = {
     "--force": "force",
     "--dry-run": "dry run",
 }
-_LOOKING = ("list", "describe")
-_REVIEWING = ("report", "compare", "measure", "reference")
+_COMMANDS = {
+    "list": "inspection",
+    "describe": "inspection",
+    "report": "review",
+    "compare": "review",
+    "measure": "review",
+    "reference": "review",
+    "status": "status",
+    "prune": "prune",
+    "judge": "stability.command",
+    "extrapolate": "convergence",
+    "advise": "advice",
+    "peers": "peers.command",
+}
+"""Where `<command>_command` of each is, imported when it is asked for."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -89,35 +104,9 @@ def _command(arguments: list[str]) -> int:
         print(__version__)
         return 0
     command = arguments[0] if arguments else ""
-    if command in _LOOKING:
-        from sphstudy import inspection
-
-        return getattr(inspection, f"{command}_command")(arguments[1:])
-    if command in _REVIEWING:
-        from sphstudy import review
-
-        return getattr(review, f"{command}_command")(arguments[1:])
-    if command == "status":
-        from sphstudy import status
-
-        return status.status_command(arguments[1:])
-    if command == "prune":
-        from sphstudy import prune
-
-        rest = [a for a in arguments[1:] if a != "--yes"]
-        return prune.prune_command(rest, yes="--yes" in arguments)
-    if command == "extrapolate":
-        from sphstudy import convergence
-
-        return convergence.extrapolate_command(arguments[1:])
-    if command == "advise":
-        from sphstudy import advice
-
-        return advice.advise_command(arguments[1:])
-    if command == "peers":
-        from sphstudy.peers.command import peers_command
-
-        return peers_command(arguments[1:])
+    if command in _COMMANDS:
+        module = importlib.import_module(f"sphstudy.{_COMMANDS[command]}")
+        return getattr(module, f"{command}_command")(arguments[1:])
     return _run(arguments)
 
 

@@ -163,7 +163,7 @@ class Session:
         if chosen not in self._composed:
             config = self._loader.load_configuration("config", list(chosen), RunMode.RUN)
             self._composed[chosen] = _without_hydra(config)
-        # Plain dictionaries, of which only what changes is copied: in a grid of 20 000 that is what counts.
+        # Plain dictionaries, of which only what changes is copied: there may be 20 000 of them.
         values = dict(self._composed[chosen])
         complaints = []
         for override in parsed:

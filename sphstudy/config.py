@@ -49,9 +49,8 @@ class RunConfig:
     def as_dict(self) -> dict[str, Any]:
         """Nested plain dictionary: the resolved configuration as it is stored and hashed."""
         return adapter(RunConfig).dump_python(self, mode="json", warnings=False) | {
-            part: adapter(type(value)).dump_python(value, mode="json")
+            part: _adapter_of(getattr(self, part)).dump_python(getattr(self, part), mode="json")
             for part in ("scene", "method", "solve")
-            for value in (getattr(self, part),)
         }
 
     def flat(self) -> dict[str, Any]:
@@ -97,6 +96,14 @@ def solver_module(name: str) -> ModuleType:
     return _module("solve", name)
 
 
+def headline(scene: str, solver: str) -> tuple[str, ...]:
+    """What tables show of a run first: the scene's metrics, or numbers of a solver that has none of them.
+
+    scene: kind of scene; solver: its name.
+    """
+    return getattr(solver_module(solver), "HEADLINE", scene_module(scene).HEADLINE)
+
+
 def _module(package: str, name: str) -> ModuleType:
     if not name.isidentifier():
         raise ConfigurationError([f"{package}: {name!r} is not the name of a module"])
@@ -110,6 +117,10 @@ def _module(package: str, name: str) -> ModuleType:
 def adapter(cls: Any) -> TypeAdapter:
     """What checks values against a class of parameters, made once."""
     return TypeAdapter(cls)
+
+
+def _adapter_of(value: Any) -> TypeAdapter:
+    return adapter(type(value))
 
 
 def validate(composed: dict[str, Any]) -> RunConfig:

@@ -63,6 +63,7 @@ class Slurm:
         jobs: what runner.job takes. Raises ConfigurationError if nothing can be submitted.
         """
         self._check(jobs)
+        self._prepare()
         waiting, refused, at_work = list(jobs), False, dict[str, Batch]()
         while waiting or at_work:
             if waiting and not refused:
@@ -92,6 +93,14 @@ class Slurm:
                 [f"{self._folder}: SLURM takes % in the name of a folder for its own"]
             )
 
+    def _prepare(self) -> None:
+        """Makes the sweep's folder, and removes those of sweeps that were interrupted a day ago."""
+        for path in self._folder.parent.glob(f"*/{STOPPED}"):
+            if path.stat().st_mtime < time.time() - 86400.0:
+                shutil.rmtree(path.parent, ignore_errors=True)
+        # Nodes load code from there: nobody else is to put any.
+        self._folder.mkdir(mode=0o700, parents=True)
+
     def _submit(self, task, waiting: list[Any], time_limit: float | None, at_work: dict) -> list[Any]:
         """Submits jobs, and adds them to those at work; returns what the cluster does not take by now."""
         batches, size = self._batches(task, waiting), self._settings.jobs_per_array
@@ -109,7 +118,7 @@ class Slurm:
                 return [job for batch in batches[first:] for job in batch.jobs]
             at_work |= zip(numbers, array, strict=True)
             number = numbers[0].split("_")[0]
-            self._say(f"SLURM job {number} of {len(array)}; scancel --name={self.name} ends the sweep")
+            self._say(f"{len(array)} jobs submitted as {number} (scancel --name={self.name} ends all)")
         return []
 
     def _batches(self, task, jobs: list[Any]) -> list[Batch]:

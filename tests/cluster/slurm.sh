@@ -75,11 +75,16 @@ start_cluster() {
 }
 
 stop_cluster() {
+    local pid
     scancel --quiet --user=root 2>/dev/null || true
-    scontrol shutdown 2>/dev/null || true
     for _ in $(seq 20); do
-        pgrep --full "$CLUSTER/slurm.conf" >/dev/null || break
+        [ -z "$(squeue --noheader 2>/dev/null)" ] && break
         sleep 0.5
     done
-    [ -f "$CLUSTER/munged.pid" ] && kill "$(cat "$CLUSTER/munged.pid")"
+    scontrol shutdown 2>/dev/null || true
+    sleep 2
+    for pid in "$CLUSTER"/slurmd-*.pid "$CLUSTER/slurmctld.pid" "$CLUSTER/munged.pid"; do
+        [ -f "$pid" ] && kill "$(cat "$pid")" 2>/dev/null
+    done
+    sleep 1
 }

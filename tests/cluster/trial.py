@@ -29,28 +29,21 @@ class Trial:
         self.folder, self.grid = folder, GRIDS[grid]
         self.wrong: list[str] = []
 
-    def command(self, name: str, *more: str) -> list[str]:
-        """The sweep, with its records in a folder called `name`."""
-        return [
-            sys.executable,
-            "-m",
-            "sphstudy",
-            "-m",
-            *self.grid,
-            f"results={self.folder / name}",
-            *more,
-        ]
-
-    def sweep(self, name: str, *more: str, meanwhile=None, expected: int = 0) -> None:
-        """Runs a sweep to its end, and `meanwhile(process, runs)` beside it."""
-        command = self.command(name, *more)
-        print(f"$ sphstudy {' '.join(command[3:])}")
+    def sweep(self, name: str, *more: str, meanwhile=None, expected: int = 0, grid=None) -> None:
+        """Runs a sweep to its end, records in `name`, and `meanwhile(process, runs)` beside it."""
+        given = ["-m", *(grid or self.grid), f"results={self.folder / name}", *more]
+        print(f"$ sphstudy {' '.join(given)}")
         begun = time.monotonic()
         with open(self.folder / "said", "w+") as said:
+            command = [sys.executable, "-m", "sphstudy", *given]
             process = subprocess.Popen(command, cwd=self.folder, stdout=said, stderr=said, text=True)
-            if meanwhile is not None:
-                meanwhile(process, self.folder / name / "runs")
-            status = process.wait()
+            try:
+                if meanwhile is not None:
+                    meanwhile(process, self.folder / name / "runs")
+                status = process.wait()
+            except BaseException:
+                process.terminate()
+                raise
             said.seek(0)
             for line in said:
                 if not PROGRESS.search(line):
@@ -107,10 +100,11 @@ def at_work(runs: Path, host: str | None = None) -> dict:
             try:
                 claim = json.loads(path.read_text())
                 environment = Path(f"/proc/{claim['process']}/environ").read_bytes()
+                checkpoint = path.with_name(path.name.replace(".running.json", ".checkpoint"))
+                saved = int(np.load(checkpoint)["step"])
             except (OSError, ValueError):
                 continue
-            checkpoint = path.with_name(path.name.replace(".running.json", ".checkpoint"))
-            if claim["step"] == 0 or not checkpoint.exists() or host not in (None, claim["host"]):
+            if saved < claim["steps"] / 10 or host not in (None, claim["host"]):
                 continue
             job = dict(part.split(b"=", 1) for part in environment.split(b"\0") if b"=" in part)
             claim["job"] = f"{job[b'SLURM_ARRAY_JOB_ID'].decode()}_{job[b'SLURM_ARRAY_TASK_ID'].decode()}"
@@ -214,6 +208,11 @@ def main(folder: str, grid: str) -> int:
     print(f"{_said('sinfo', '--version')}: {nodes}")
     early = "checkpoint=0.5"
 
+    # Code that a process has compiled itself may round differently, in the last digit, from the same code
+    # loaded from the cache; all runs that are compared load theirs.
+    print("\n0. code is compiled, here and on the nodes")
+    trial.sweep("compiling", grid=["n=12"])
+    trial.sweep("compiling-there", CLUSTER, grid=["n=12"])
     print("\n1. on this machine")
     trial.sweep("local")
     print("\n2. the same by SLURM")

@@ -202,7 +202,12 @@ class Session:
             raise ConfigurationError(
                 [f"hydra.launcher.n_jobs={jobs}: should be a whole number above 0, or -1: one per core"]
             )
-        return Launcher(config.hydra.runtime.choices["hydra/launcher"], settings)
+        name = config.hydra.runtime.choices["hydra/launcher"]
+        if name == "slurm":
+            from sphstudy.cluster_settings import settings_of
+
+            settings_of(settings)
+        return Launcher(name, settings)
 
 
 def launcher_overrides(arguments: list[str]) -> list[str]:

@@ -27,8 +27,8 @@ TRIED_AGAIN = {
 
 @dataclass(frozen=True)
 class Planned:
-    """A point, the status that the store has of it, whether it runs and why; if so, what is predicted: CPU
-    time (s) and memory (bytes).
+    """A point, the status that the store has of it, whether it runs and why; predicted CPU time (s) and
+    memory (bytes), if it does.
     """
 
     point: Point

@@ -39,7 +39,8 @@ class Pool:
         """Calls task(job) for each job in some worker, in the order given, and waits for all.
 
         A worker that dies, or a job that takes longer than `time_limit` (s) and some grace, is reported,
-        lost(job, "failed" or "timeout", why), and the others go on. What a task raises is lost too.
+        lost(job, "failed" or "timeout", why), and the others go on. What a task raises is lost too, as
+        "interrupted" if it is an OSError: the disk did not take its record.
         """
         waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
         for job in jobs:
@@ -87,6 +88,8 @@ class Pool:
             self._executors.pop(slot, None)
             if not self._stopped.is_set():
                 lost(job, "failed", _why(death))
+        except OSError as error:
+            lost(job, "interrupted", str(error))
         except Exception as error:
             lost(job, "failed", f"{type(error).__name__}: {error}")
 

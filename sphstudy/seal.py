@@ -7,6 +7,10 @@ bytes after its own, so that any reader of netCDF reads a sealed file.
 import hashlib
 import os
 from pathlib import Path
+from typing import Any
+
+SEALED = "sealed"
+"""Global attribute of a file that has a seal: one without it is not whole."""
 
 _MARK = b"sphstudy, sha256"
 _SIZE = len(_MARK) + hashlib.sha256().digest_size
@@ -22,24 +26,30 @@ def seal(path: Path) -> None:
         os.fsync(file.fileno())
 
 
-def check_seal(path: Path) -> None:
-    """Raises ValueError if a sealed file has changed. One without a seal, from before, passes: what is
-    cut off at its end HDF5 notices itself.
-    """
+def check_seal(path: Path) -> bool:
+    """Whether a file has a seal. Raises ValueError if it has changed since."""
     with open(path, "rb") as file:
         size = file.seek(0, os.SEEK_END) - _SIZE
         if size < 0:
-            return
+            return False
         file.seek(size)
         tail = file.read()
         mark, expected = tail[: len(_MARK)], tail[len(_MARK) :]
-        # A seal whose own mark is damaged is one all the same.
-        if sum(a == b for a, b in zip(mark, _MARK, strict=True)) < len(_MARK) // 2:
-            return
+        if mark != _MARK:
+            return False
         file.seek(0)
         digest = hashlib.sha256()
         while size > 0 and (part := file.read(min(size, 1 << 20))):
             digest.update(part)
             size -= len(part)
-    if mark != _MARK or digest.digest() != expected:
+    if digest.digest() != expected:
         raise ValueError("its bytes are not those that were written")
+    return True
+
+
+def taken_seal(attributes: dict[str, Any], sealed: bool) -> None:
+    """Takes out of a file's attributes that it is sealed. Raises ValueError if it is not; a file from
+    before there were seals passes.
+    """
+    if attributes.pop(SEALED, None) and not sealed:
+        raise ValueError("its end is missing")

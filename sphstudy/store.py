@@ -27,7 +27,7 @@ from sphstudy.claim import is_alive
 from sphstudy.config import ConfigurationError, RunConfig
 from sphstudy.index import Index, Summary, plain
 from sphstudy.record import STATUS
-from sphstudy.seal import check_seal, seal
+from sphstudy.seal import SEALED, check_seal, seal, taken_seal
 
 Format = Literal["NETCDF4", "NETCDF3_64BIT"]
 
@@ -132,10 +132,11 @@ class Store:
 
 def summarised(path: Path) -> Summary:
     """The summary of a record file; raises one of UNREADABLE if it is none."""
-    check_seal(path)
+    sealed = check_seal(path)
     # Twenty times faster than through xarray, which matters for a report on a hundred runs.
     with FILES, netCDF4.Dataset(path) as run:
         attributes = {name: run.getncattr(name) for name in run.ncattrs()}
+        taken_seal(attributes, sealed)
         status = _status(path, run, attributes)
         own = {
             name: {key: plain(text) for key, text in v.__dict__.items() if not key.startswith("_")}
@@ -153,14 +154,20 @@ def summarised(path: Path) -> Summary:
 def read(path: Path) -> xr.Dataset | None:
     """A record, loaded and closed, or None if there is none or it is unreadable (then set aside)."""
     try:
-        check_seal(path)
-        with FILES, xr.open_dataset(path, engine="netcdf4") as run:
-            run = run.load()
+        run = _loaded(path)
         _status(path, run, run.attrs)
         return run
     except UNREADABLE as error:
         _refuse(path, error)
         return None
+
+
+def _loaded(path: Path) -> xr.Dataset:
+    sealed = check_seal(path)
+    with FILES, xr.open_dataset(path, engine="netcdf4") as dataset:
+        dataset = dataset.load()
+    taken_seal(dataset.attrs, sealed)
+    return dataset
 
 
 def _status(path: Path, run: Any, attributes: dict[str, Any]) -> str:
@@ -187,8 +194,9 @@ def _refuse(path: Path, error: Exception) -> None:
     if isinstance(error, OSError) and error.errno in _PASSING:
         raise ConfigurationError([f"{path}: cannot be read now ({error.strerror})"]) from None
     told = " ".join(str(error).split())
-    names = (f"{path.stem}{mark}.unreadable" for mark in ("", *(f".{k}" for k in itertools.count(2))))
-    aside = next(a for a in map(path.with_name, names) if not os.path.lexists(a))
+    marks = itertools.chain([""], (f".{k}" for k in itertools.count(2)))
+    names = (path.with_name(f"{path.stem}{mark}.unreadable") for mark in marks)
+    aside = next(name for name in names if not os.path.lexists(name))
     try:
         os.rename(path, aside)
     except FileNotFoundError:
@@ -208,8 +216,7 @@ def read_dataset(name: str, results: str | Path) -> xr.Dataset:
     for path in candidates:
         if path.is_file():
             try:
-                with FILES, xr.open_dataset(path, engine="netcdf4") as dataset:
-                    return dataset.load()
+                return _loaded(path)
             except (OSError, ValueError, RuntimeError) as error:
                 raise ConfigurationError([f"{path}: cannot be read ({error})"]) from None
     raise ConfigurationError([f"{name}: there is neither {' nor '.join(map(str, candidates))}"])
@@ -231,6 +238,8 @@ def write(dataset: xr.Dataset, path: Path, format: Format = "NETCDF4") -> None:
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=".writing-", suffix=".nc")
     os.close(handle)
     try:
+        if format == "NETCDF4":
+            dataset = dataset.assign_attrs({SEALED: "a digest follows the file's end"})
         with FILES:
             _to_netcdf(dataset, temporary, format=format, encoding=encoding)
         if format == "NETCDF4":

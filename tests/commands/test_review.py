@@ -62,7 +62,7 @@ def test_dry_run_tells_what_would_run_and_runs_nothing(place, capsys):
     assert main(["study", "tiny", "n=5,9", "--dry-run"]) == 0
     shown = capsys.readouterr().out
     assert "2 runs to do" in shown
-    assert shown.count("not in the store") == 2
+    assert shown.count("new: n=") == 2
     assert shown.count("stored: done") == 2
     assert not list((place / "results" / "runs").glob("*n9*"))
 

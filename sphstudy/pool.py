@@ -28,6 +28,7 @@ class Pool:
         self.workers = workers
         self._executors: dict[int, ProcessPoolExecutor] = {}
         self._stopped = threading.Event()
+        self._starting = threading.Lock()
 
     def run(
         self,
@@ -59,7 +60,8 @@ class Pool:
 
     def stop(self) -> None:
         """Ends all workers at once."""
-        self._stopped.set()
+        with self._starting:
+            self._stopped.set()
         for executor in list(self._executors.values()):
             executor.shutdown(wait=False, kill_workers=True)
 
@@ -74,24 +76,23 @@ class Pool:
             executor.shutdown(wait=True)
 
     def _do(self, slot, task, job, deadline, lost) -> None:
-        if slot not in self._executors:
-            share = max(1, (os.cpu_count() or 1) // self.workers)
-            self._executors[slot] = ProcessPoolExecutor(1, env=_threads(share), timeout=None)
-        future: Future = self._executors[slot].submit(task, job)
+        with self._starting:
+            # None that is started after the others were ended.
+            if self._stopped.is_set():
+                return
+            if slot not in self._executors:
+                share = max(1, (os.cpu_count() or 1) // self.workers)
+                self._executors[slot] = ProcessPoolExecutor(1, env=_threads(share), timeout=None)
+            future: Future = self._executors[slot].submit(task, job)
         try:
             future.result(deadline)
-        except Overdue:
-            self._executors.pop(slot).shutdown(wait=False, kill_workers=True)
-            if not self._stopped.is_set():
-                lost(job, "timeout", f"ended after {deadline:g} s: it did not end itself")
-        except BrokenProcessPool as death:
-            self._executors.pop(slot, None)
-            if not self._stopped.is_set():
-                lost(job, "failed", _why(death))
-        except OSError as error:
-            lost(job, "interrupted", str(error))
         except Exception as error:
-            lost(job, "failed", f"{type(error).__name__}: {error}")
+            if isinstance(error, Overdue | BrokenProcessPool) and (
+                executor := self._executors.pop(slot, None)
+            ):
+                executor.shutdown(wait=False, kill_workers=True)
+            if not self._stopped.is_set():
+                lost(job, *_why(error, deadline))
 
 
 def _threads(count: int) -> dict[str, str]:
@@ -100,8 +101,14 @@ def _threads(count: int) -> dict[str, str]:
     return dict.fromkeys(names, str(count))
 
 
-def _why(death: BaseException) -> str:
-    """How a worker ended, with the exit code that loky names."""
-    code = re.search(r"SIG[A-Z]+\(-\d+\)|EXIT\(\d+\)", str(death))
-    told = f" ({code.group()})" if code else ""
-    return f"its process was ended from outside, by a signal or for want of memory{told}"
+def _why(error: Exception, deadline: float | None) -> tuple[str, str]:
+    """How a run ended, and why: of a dead worker with the exit code that loky names."""
+    if isinstance(error, BrokenProcessPool):
+        code = re.search(r"SIG[A-Z]+\(-\d+\)|EXIT\(\d+\)", str(error))
+        told = f" ({code.group()})" if code else ""
+        return "failed", f"its process was ended from outside, by a signal or for want of memory{told}"
+    if isinstance(error, Overdue):
+        return "timeout", f"ended after {deadline:g} s: it did not end itself"
+    if isinstance(error, OSError):
+        return "interrupted", str(error)
+    return "failed", f"{type(error).__name__}: {error}"

@@ -40,8 +40,8 @@ def compute(config: RunConfig, store: Store, execution: Execution) -> str:
     if not claim.take():
         return ELSEWHERE
     with claim:
-        if store.stamp(config) != execution.known:
-            return store.status(config)
+        if store.stamp(config) != execution.known and (there := store.summary(config)):
+            return there.status
         keeper = CheckpointFile(store.checkpoint_path(config), execution.checkpoint)
         started = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
         log = Log(store.log_path(config))

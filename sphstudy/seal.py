@@ -52,4 +52,4 @@ def taken_seal(attributes: dict[str, Any], sealed: bool) -> None:
     before there were seals passes.
     """
     if attributes.pop(SEALED, None) and not sealed:
-        raise ValueError("its end is missing")
+        raise ValueError("cut off, or written by another program")

@@ -1,5 +1,6 @@
 """Command line: separates sub-commands and flags from overrides, and says how it ended."""
 
+import errno
 import importlib
 import sys
 
@@ -52,8 +53,8 @@ flags
 
 A run that is already in the results folder is not run again. Each run leaves one netCDF file in
 results/runs, a sweep one labelled dataset in results/sweeps, a study a page in results/reports.
-Exit status: 0 all points done (a diverged point is a result), 1 a point failed or a metric lies outside
-its accepted interval, 2 wrong input, 130 interrupted.
+Exit status: 0 all points done (a diverged point is a result), 1 a point failed or has no record, the disk
+takes no more, or a metric lies outside its accepted interval, 2 wrong input, 130 interrupted.
 """
 
 _FLAGS = {
@@ -79,6 +80,9 @@ _COMMANDS = {
 }
 """Where `<command>_command` of each is, imported when it is asked for."""
 
+_DISK = (errno.EACCES, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.ENOSPC, errno.EROFS, errno.ESTALE)
+"""What a disk may answer to whoever writes to it."""
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Runs the program; returns its exit status."""
@@ -89,6 +93,11 @@ def main(arguments: list[str] | None = None) -> int:
         for complaint in error.complaints:
             print(f"sphstudy: {complaint}", file=sys.stderr)
         return 2
+    except OSError as error:
+        if error.errno not in _DISK:
+            raise
+        print(f"sphstudy: {error}; finished runs are kept", file=sys.stderr)
+        return 1
     except KeyboardInterrupt:
         print("sphstudy: interrupted; finished runs are kept", file=sys.stderr)
         return 130

@@ -16,6 +16,8 @@ from sphstudy.record import STATUS
 from sphstudy.store import Store
 from sphstudy.tables import print_tables
 
+_UNDONE = ("missing", "interrupted", "running")
+
 
 def run_command(arguments: list[str], many: bool, force: bool) -> int:
     """`sphstudy [-m] key=value …`: one run or a sweep. Returns the exit status.
@@ -92,7 +94,11 @@ def _report(dataset: xr.Dataset, path: Path) -> int:
     print_tables(dataset)
     print(f"dataset: {path}")
     bad = {name: int((dataset["status"] == STATUS.index(name)).sum()) for name in ("failed", "timeout")}
+    there = dataset["configuration"] != ""
+    without = int((there & dataset["status"].isin([STATUS.index(name) for name in _UNDONE])).sum())
     for name, count in bad.items():
         if count:
             print(f"{count} {name}: the .log beside each record says more; retry={name} tries again")
-    return 1 if any(bad.values()) else 0
+    if without:
+        print(f"{without} points have no record: they are run when asked for again")
+    return 1 if without or any(bad.values()) else 0

@@ -55,7 +55,10 @@ class Claim:
         self._over = threading.Event()
 
     def take(self) -> bool:
-        """Takes the run unless a living process has it; whether that worked."""
+        """Takes the run unless a living process has it; whether that worked. Raises OSError if the
+        claim cannot be written: without it, others would compute the run too.
+        """
+        self.path.parent.mkdir(parents=True, exist_ok=True)
         with _locked(self.path.parent):
             if is_alive(self.path):
                 return False
@@ -73,16 +76,20 @@ class Claim:
     def update(self, step: int, steps: int) -> None:
         """Notes the step reached, at most twice a second."""
         if time.monotonic() - self._written >= NOTE_INTERVAL:
-            self._write(step, steps)
+            with suppress(OSError):
+                self._write(step, steps)
 
     def _write(self, step: int, steps: int) -> None:
         self._written = time.monotonic()
         me = os.getpid()
         note = Holder(step, steps, me, platform.node(), self._started, _born(me))
         temporary = self.path.with_suffix(f".{me}.tmp")
-        with suppress(OSError):
+        try:
             temporary.write_text(json.dumps(asdict(note)))
             os.replace(temporary, self.path)
+        except OSError:
+            temporary.unlink(missing_ok=True)
+            raise
 
     def _beat(self) -> None:
         while not self._over.wait(HEARTBEAT):

@@ -144,6 +144,8 @@ class Session:
             yield f"{line}: write key=value; keys cannot be added, deleted or moved"
         elif "${" in line:
             yield f"{line}: interpolations are not taken from the command line"
+        elif key == "known":
+            yield f"{line}: set by the program itself"
         elif key.startswith("hydra"):
             yield f"{line}: of Hydra's own keys, hydra/launcher and hydra.launcher.* can be set"
         elif "." not in key and (options := self._options(key)):

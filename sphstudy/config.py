@@ -7,6 +7,7 @@ Scenes and methods are found by the `kind` in their YAML file: module `sphstudy.
 import dataclasses
 import importlib
 import os
+import re
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -105,12 +106,15 @@ def headline(scene: str, solver: str) -> tuple[str, ...]:
 
 
 def _module(package: str, name: str) -> ModuleType:
-    if not name.isidentifier():
+    if not (isinstance(name, str) and name.isidentifier()):
         raise ConfigurationError([f"{package}: {name!r} is not the name of a module"])
     try:
-        return importlib.import_module(f"sphstudy.{package}.{name}")
+        found = importlib.import_module(f"sphstudy.{package}.{name}")
     except ModuleNotFoundError as error:
         raise ConfigurationError([f"{package}: there is no module {name!r} ({error})"]) from None
+    if not hasattr(found, "Parameters"):
+        raise ConfigurationError([f"{package}: module {name!r} is none of them"])
+    return found
 
 
 @cache
@@ -120,7 +124,8 @@ def adapter(cls: Any) -> TypeAdapter:
 
 
 def _adapter_of(value: Any) -> TypeAdapter:
-    return adapter(type(value))
+    cls: Any = type(value)
+    return adapter(cls)
 
 
 def validate(composed: dict[str, Any]) -> RunConfig:
@@ -132,14 +137,24 @@ def validate(composed: dict[str, Any]) -> RunConfig:
     composed = _rounded(composed)
     complaints: list[str] = []
     parts: dict[str, Any] = {}
-    modules = {
-        "scene": scene_module(composed["scene"]["kind"]),
-        "method": method_module(composed["method"]["kind"]),
-        "solve": solver_module(composed["solve"]["name"]),
-    }
+    try:
+        modules = {
+            "scene": scene_module(composed["scene"]["kind"]),
+            "method": method_module(composed["method"]["kind"]),
+            "solve": solver_module(composed["solve"]["name"]),
+        }
+        names = [composed[part]["name"] for part in modules]
+        rest = {key: composed[key] for key in ("h", "n", "seed", "record")}
+    except (KeyError, TypeError) as error:
+        raise ConfigurationError([f"not the configuration of a run ({error})"]) from None
+    # They are part of names of files.
+    complaints += [
+        f"name={name}: should be up to 40 letters, digits and _ + - only"
+        for name in names
+        if not (isinstance(name, str) and re.fullmatch(r"[\w+-]{1,40}", name))
+    ]
     for part, module in modules.items():
         parts[part] = checked(module.Parameters, composed[part], f"{part}.", complaints)
-    rest = {key: composed[key] for key in ("h", "n", "seed", "record")}
     config = checked(RunConfig, {**parts, **rest}, "", complaints)
     if complaints:
         raise ConfigurationError(complaints)

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, Protocol
 
 from sphstudy.claim import is_alive
@@ -55,6 +56,7 @@ class Launching:
     def __init__(self, store: Store, pending: list[Planned], launcher: Launcher):
         self._store, self._pending, self._launcher = store, pending, launcher
         self._workers = workers_of(launcher, [p.point for p in pending])
+        self._unstored: set[Path] = set()
 
     def run(self) -> None:
         """Until every run has a record, or another process is computing it.
@@ -68,6 +70,7 @@ class Launching:
                 self._launch(pending)
             left = [p for p in pending if self._store.stamp(p.point.config) == p.point.execution.known]
             left = [p for p in left if not is_alive(self._store.claim_path(p.point.config))]
+            left = [p for p in left if self._store.record_path(p.point.config) not in self._unstored]
             if len(left) == len(pending):
                 for p in left:
                     self._give_up(p.point, "failed", "its launcher ended without it")
@@ -89,7 +92,12 @@ class Launching:
                 said = True
             if waiting:
                 time.sleep(PATIENCE)
-        left = [p for p in others if self._store.status(p.point.config) in ("missing", "interrupted")]
+        left = [
+            p
+            for p in others
+            if self._store.record_path(p.point.config) not in self._unstored
+            and self._store.status(p.point.config) in ("missing", "interrupted")
+        ]
         if left:
             with _interrupted_cleanly():
                 self._launch(self._stamped(left))
@@ -110,7 +118,7 @@ class Launching:
         elif self._launcher.name == "basic" or len(pending) == 1:
             # A single run stays in this process: starting another takes longer than many a run.
             for p in pending:
-                compute(p.point.config, self._store, p.point.execution)
+                self._compute(p.point)
         else:
             self._by(Pool(self._workers), pending)
 
@@ -125,8 +133,24 @@ class Launching:
             workers.stop()
             raise
 
+    def _compute(self, point: Point) -> None:
+        try:
+            compute(point.config, self._store, point.execution)
+        except OSError as error:
+            self._give_up(point, "interrupted", str(error))
+
     def _give_up(self, point: Point, outcome: str, why: str) -> None:
-        give_up(point.config, self._store, outcome, why)
+        """Writes what became of a run that has no record. One whose record the disk does not take stays
+        without, so that it is done again as soon as there is room.
+        """
+        try:
+            if outcome != "interrupted":
+                give_up(point.config, self._store, outcome, why)
+                return
+        except OSError as error:
+            why = f"{why}; {error}"
+        self._unstored.add(self._store.record_path(point.config))
+        print(f"{point.config.label}: its record could not be written ({why})", file=sys.stderr)
 
 
 @contextmanager

@@ -28,6 +28,7 @@ class Pool:
         self.workers = workers
         self._executors: dict[int, ProcessPoolExecutor] = {}
         self._stopped = threading.Event()
+        self._starting = threading.Lock()
 
     def run(
         self,
@@ -39,7 +40,8 @@ class Pool:
         """Calls task(job) for each job in some worker, in the order given, and waits for all.
 
         A worker that dies, or a job that takes longer than `time_limit` (s) and some grace, is reported,
-        lost(job, "failed" or "timeout", why), and the others go on. What a task raises is lost too.
+        lost(job, "failed" or "timeout", why), and the others go on. What a task raises is lost too, as
+        "interrupted" if it is an OSError: the disk did not take its record.
         """
         waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
         for job in jobs:
@@ -58,7 +60,8 @@ class Pool:
 
     def stop(self) -> None:
         """Ends all workers at once."""
-        self._stopped.set()
+        with self._starting:
+            self._stopped.set()
         for executor in list(self._executors.values()):
             executor.shutdown(wait=False, kill_workers=True)
 
@@ -73,22 +76,23 @@ class Pool:
             executor.shutdown(wait=True)
 
     def _do(self, slot, task, job, deadline, lost) -> None:
-        if slot not in self._executors:
-            share = max(1, (os.cpu_count() or 1) // self.workers)
-            self._executors[slot] = ProcessPoolExecutor(1, env=thread_settings(share), timeout=None)
-        future: Future = self._executors[slot].submit(task, job)
+        with self._starting:
+            # None that is started after the others were ended.
+            if self._stopped.is_set():
+                return
+            if slot not in self._executors:
+                share = max(1, (os.cpu_count() or 1) // self.workers)
+                self._executors[slot] = ProcessPoolExecutor(1, env=thread_settings(share), timeout=None)
+            future: Future = self._executors[slot].submit(task, job)
         try:
             future.result(deadline)
-        except Overdue:
-            self._executors.pop(slot).shutdown(wait=False, kill_workers=True)
-            if not self._stopped.is_set():
-                lost(job, "timeout", f"ended after {deadline:g} s: it did not end itself")
-        except BrokenProcessPool as death:
-            self._executors.pop(slot, None)
-            if not self._stopped.is_set():
-                lost(job, "failed", _why(death))
         except Exception as error:
-            lost(job, "failed", f"{type(error).__name__}: {error}")
+            if isinstance(error, Overdue | BrokenProcessPool) and (
+                executor := self._executors.pop(slot, None)
+            ):
+                executor.shutdown(wait=False, kill_workers=True)
+            if not self._stopped.is_set():
+                lost(job, *_why(error, deadline))
 
 
 def thread_settings(count: int) -> dict[str, str]:
@@ -97,8 +101,14 @@ def thread_settings(count: int) -> dict[str, str]:
     return dict.fromkeys(names, str(count))
 
 
-def _why(death: BaseException) -> str:
-    """How a worker ended, with the exit code that loky names."""
-    code = re.search(r"SIG[A-Z]+\(-\d+\)|EXIT\(\d+\)", str(death))
-    told = f" ({code.group()})" if code else ""
-    return f"its process was ended from outside, by a signal or for want of memory{told}"
+def _why(error: Exception, deadline: float | None) -> tuple[str, str]:
+    """How a run ended, and why: of a dead worker with the exit code that loky names."""
+    if isinstance(error, BrokenProcessPool):
+        code = re.search(r"SIG[A-Z]+\(-\d+\)|EXIT\(\d+\)", str(error))
+        told = f" ({code.group()})" if code else ""
+        return "failed", f"its process was ended from outside, by a signal or for want of memory{told}"
+    if isinstance(error, Overdue):
+        return "timeout", f"ended after {deadline:g} s: it did not end itself"
+    if isinstance(error, OSError):
+        return "interrupted", str(error)
+    return "failed", f"{type(error).__name__}: {error}"

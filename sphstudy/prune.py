@@ -1,6 +1,7 @@
 """What in a folder of results serves nobody any more, why, and how much space it takes."""
 
 import json
+import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -58,7 +59,7 @@ def prune_command(arguments: list[str]) -> int:
     total = f"{len(found)} files, {sum(one.size for one in found) / 1e6:.1f} MB"
     if yes:
         for one in found:
-            one.path.unlink(missing_ok=True)
+            _remove(one.path)
         print(f"removed: {total}")
     else:
         print(f"stale: {total}" + (" (--yes removes them)" if found else ""))
@@ -93,10 +94,18 @@ def stale(store: Store) -> Iterator[Stale]:
             if stem not in alive and stem not in stems and not kept:
                 yield Stale(path, reason, path.stat().st_size)
     for path in sorted(store.runs.glob("*.unreadable")):
-        yield Stale(path, "no record: set aside when it was looked for", path.stat().st_size)
+        yield Stale(path, "no record: set aside when it was looked for", path.lstat().st_size)
     if not alive:
         for path in sorted(store.runs.glob(".writing-*")):
             yield Stale(path, "a write that was not finished", path.stat().st_size)
+
+
+def _remove(path: Path) -> None:
+    """A file, or a folder that lay where a record should."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    else:
+        path.unlink(missing_ok=True)
 
 
 def _orphan(store: Store, stem: str) -> bool:

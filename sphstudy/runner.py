@@ -33,14 +33,15 @@ def compute(config: RunConfig, store: Store, execution: Execution) -> str:
     """Computes a point unless another process is about it, or has been since the record was looked at.
 
     Goes on from the last checkpoint if there is one, and writes the record. Returns the outcome, or
-    ELSEWHERE. Whatever goes wrong becomes a record; only Ctrl-C passes through.
+    ELSEWHERE. Whatever goes wrong becomes a record; only Ctrl-C passes through, and the OSError of a
+    disk that takes no claim or no record: the run can be done again from its last checkpoint.
     """
     claim = Claim(store.claim_path(config))
     if not claim.take():
         return ELSEWHERE
     with claim:
-        if store.stamp(config) != execution.known:
-            return store.status(config)
+        if store.stamp(config) != execution.known and (there := store.summary(config)):
+            return there.status
         keeper = CheckpointFile(store.checkpoint_path(config), execution.checkpoint)
         started = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
         log = Log(store.log_path(config))

@@ -8,13 +8,16 @@
 <results>/runs/.index.sqlite                summaries of records, kept so that 20 000 need not be opened
 """
 
+import errno
+import itertools
+import json
 import math
 import os
 import sys
 import tempfile
 import threading
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import netCDF4
 import xarray as xr
@@ -24,6 +27,7 @@ from sphstudy.claim import is_alive
 from sphstudy.config import ConfigurationError, RunConfig
 from sphstudy.index import Index, Summary, plain
 from sphstudy.record import STATUS
+from sphstudy.seal import SEALED, check_seal, seal, taken_seal
 
 Format = Literal["NETCDF4", "NETCDF3_64BIT"]
 
@@ -33,6 +37,12 @@ FILES = threading.RLock()
 
 UNREADABLE = (OSError, LookupError, RuntimeError, ValueError, AttributeError, TypeError)
 """What reading a file that is no record, or a damaged one, may raise."""
+
+_PASSING = (errno.EACCES, errno.EIO, errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.EPERM, errno.ESTALE)
+"""Errors of the system that say nothing about the file."""
+
+_NEEDED = ("title", "message", "key", "configuration", "numerics_version", "date_created")
+"""Attributes without which a file is no record."""
 
 REUSED = ("done", "diverged")
 """Outcomes that are results: such a point is not computed again."""
@@ -85,7 +95,10 @@ class Store:
         """The same of a record by its path. From the index, if the file is the one that was seen then."""
         try:
             found = path.stat()
-        except OSError:
+        except (FileNotFoundError, NotADirectoryError):
+            return None
+        except OSError as error:
+            _refuse(path, error)
             return None
         stamp = (found.st_mtime_ns, found.st_size)
         if (known := self.index.get(path.name, stamp)) is not None:
@@ -93,7 +106,7 @@ class Store:
         try:
             summary = summarised(path)
         except UNREADABLE as error:
-            _set_aside(path, error)
+            _refuse(path, error)
             return None
         self.index.put(path.name, stamp, summary)
         return summary
@@ -119,12 +132,12 @@ class Store:
 
 def summarised(path: Path) -> Summary:
     """The summary of a record file; raises one of UNREADABLE if it is none."""
+    sealed = check_seal(path)
     # Twenty times faster than through xarray, which matters for a report on a hundred runs.
     with FILES, netCDF4.Dataset(path) as run:
-        status = STATUS[int(run["status"][...])]
         attributes = {name: run.getncattr(name) for name in run.ncattrs()}
-        if "configuration" not in attributes:
-            raise ValueError("not a record of this program")
+        taken_seal(attributes, sealed)
+        status = _status(path, run, attributes)
         own = {
             name: {key: plain(text) for key, text in v.__dict__.items() if not key.startswith("_")}
             for name, v in run.variables.items()
@@ -140,23 +153,58 @@ def summarised(path: Path) -> Summary:
 
 def read(path: Path) -> xr.Dataset | None:
     """A record, loaded and closed, or None if there is none or it is unreadable (then set aside)."""
-    if not path.exists():
-        return None
     try:
-        with FILES, xr.open_dataset(path, engine="netcdf4") as run:
-            run = run.load()
-        if "status" not in run or "configuration" not in run.attrs:
-            raise ValueError("not a record of this program")
+        run = _loaded(path)
+        _status(path, run, run.attrs)
         return run
     except UNREADABLE as error:
-        _set_aside(path, error)
+        _refuse(path, error)
         return None
 
 
-def _set_aside(path: Path, error: Exception) -> None:
-    aside = path.with_suffix(".unreadable")
-    os.replace(path, aside)
-    print(f"{path.name}: unreadable ({error}); set aside as {aside.name}", file=sys.stderr)
+def _loaded(path: Path) -> xr.Dataset:
+    sealed = check_seal(path)
+    with FILES, xr.open_dataset(path, engine="netcdf4") as dataset:
+        dataset = dataset.load()
+    taken_seal(dataset.attrs, sealed)
+    return dataset
+
+
+def _status(path: Path, run: Any, attributes: dict[str, Any]) -> str:
+    """The outcome that a file says. Raises ValueError or LookupError if it is no record of that name."""
+    if any(not isinstance(attributes.get(name), str) for name in _NEEDED):
+        raise ValueError("not a record of this program")
+    if attributes["key"] != path.stem.rpartition("-")[2]:
+        raise ValueError(f"the record of another run, {attributes['title']}-{attributes['key']}")
+    if not isinstance(json.loads(attributes["configuration"]), dict):
+        raise ValueError("without a configuration")
+    code = int(run["status"][...])
+    if not 0 < code < len(STATUS):
+        raise ValueError(f"outcome {code}")
+    return STATUS[code]
+
+
+def _refuse(path: Path, error: Exception) -> None:
+    """Sets aside what cannot be read, by name; nothing if it is gone by now.
+
+    Raises ConfigurationError if the system is to blame, not the file.
+    """
+    if isinstance(error, FileNotFoundError):
+        return
+    if isinstance(error, OSError) and error.errno in _PASSING:
+        raise ConfigurationError([f"{path}: cannot be read now ({error.strerror})"]) from None
+    told = " ".join(str(error).split())
+    marks = itertools.chain([""], (f".{k}" for k in itertools.count(2)))
+    names = (path.with_name(f"{path.stem}{mark}.unreadable") for mark in marks)
+    aside = next(name for name in names if not os.path.lexists(name))
+    try:
+        os.rename(path, aside)
+    except FileNotFoundError:
+        return
+    except OSError as failure:
+        print(f"{path.name}: unreadable ({told}), left there ({failure.strerror})", file=sys.stderr)
+        return
+    print(f"{path.name}: unreadable ({told}); set aside as {aside.name}", file=sys.stderr)
 
 
 def read_dataset(name: str, results: str | Path) -> xr.Dataset:
@@ -168,8 +216,7 @@ def read_dataset(name: str, results: str | Path) -> xr.Dataset:
     for path in candidates:
         if path.is_file():
             try:
-                with FILES, xr.open_dataset(path, engine="netcdf4") as dataset:
-                    return dataset.load()
+                return _loaded(path)
             except (OSError, ValueError, RuntimeError) as error:
                 raise ConfigurationError([f"{path}: cannot be read ({error})"]) from None
     raise ConfigurationError([f"{name}: there is neither {' nor '.join(map(str, candidates))}"])
@@ -178,7 +225,8 @@ def read_dataset(name: str, results: str | Path) -> xr.Dataset:
 def write(dataset: xr.Dataset, path: Path, format: Format = "NETCDF4") -> None:
     """Writes a dataset so that `path` holds either the old file or the whole new one.
 
-    format: netCDF 4, compressed, or netCDF 3, ten times smaller where there are many small variables.
+    format: netCDF 4, compressed and sealed, or netCDF 3, ten times smaller where there are many small
+    variables. Raises OSError if the disk does not take it.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     packed = {"zlib": True, "complevel": 2, "shuffle": True}
@@ -190,12 +238,30 @@ def write(dataset: xr.Dataset, path: Path, format: Format = "NETCDF4") -> None:
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=".writing-", suffix=".nc")
     os.close(handle)
     try:
+        if format == "NETCDF4":
+            dataset = dataset.assign_attrs({SEALED: "a digest follows the file's end"})
         with FILES:
-            dataset.to_netcdf(temporary, engine="netcdf4", format=format, encoding=encoding)
-        with open(temporary, "rb") as file:
-            os.fsync(file.fileno())
+            _to_netcdf(dataset, temporary, format=format, encoding=encoding)
+        if format == "NETCDF4":
+            seal(Path(temporary))
+        else:
+            with open(temporary, "rb") as file:
+                os.fsync(file.fileno())
         os.chmod(temporary, 0o644)
         os.replace(temporary, path)
     except BaseException:
         Path(temporary).unlink(missing_ok=True)
         raise
+
+
+def _to_netcdf(dataset: xr.Dataset, path: str, **how: Any) -> None:
+    """Raises OSError where HDF5 only says that it could not write."""
+    try:
+        dataset.to_netcdf(path, engine="netcdf4", **how)
+    except RuntimeError as error:
+        raise OSError(errno.EIO, f"{error}: {_room(Path(path).parent)}", path) from None
+
+
+def _room(folder: Path) -> str:
+    free = os.statvfs(folder)
+    return f"{free.f_bavail * free.f_frsize / 1e6:.1f} MB are free"

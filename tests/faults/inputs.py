@@ -1,0 +1,365 @@
+"""Bad input by the thousand: overrides, study files and bytes of records made up by hypothesis.
+
+`python -m tests.faults.inputs 1000` tries so many and prints what became of them. None may end in a
+traceback, start a run that it should not, or be taken without a word.
+"""
+
+import contextlib
+import io
+import json
+import math
+import os
+import sys
+import tempfile
+import time
+from collections import Counter
+from pathlib import Path
+
+import hypothesis
+import yaml
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import sphstudy
+from sphstudy import batch, study
+from sphstudy.__main__ import main
+from sphstudy.composition import session
+from sphstudy.config import scene_module, validate
+from sphstudy.planning import plan
+from sphstudy.store import Store
+
+CHEAP = {"scene": "plate", "method": "tl", "n": 5, "h": 1.3, "scene.periods": 0.01}
+"""A run of a hundredth of a second."""
+
+POISON = "SPHSTUDY_POISON"
+"""An environment variable whose value must turn up nowhere."""
+
+KEYS = (
+    "scene", "method", "solve", "h", "n", "seed", "record", "results", "checkpoint", "threads", "retry",
+    "time_limit", "memory_limit", "known", "scene.name", "scene.kind", "scene.E", "scene.nu", "scene.L",
+    "scene.H0", "scene.periods", "scene.columns", "scene.slenderness", "scene.plane", "method.name",
+    "method.kind", "method.kernel", "method.law", "method.hourglass", "solve.name", "solve.courant",
+    "solve.damping", "solve.integrator", "record.samples", "record.times", "record.frames", "protocol",
+    "hydra/launcher", "hydra.launcher.n_jobs", "hydra.run.dir", "hydra.launcher._target_", "hydra",
+    "scene._target_", "_target_", "record._target_", "method.viscosity_linear", "hydra/sweeper",
+)  # fmt: skip
+
+VALUES = (
+    "", "null", "true", "1", "0", "-1", "3", "5", "7", "1.3", "1.5,1.7", "3,5", "nan", "inf", "-inf",
+    "1e308", "1e400", "9" * 30, "9" * 5000, "1_0", "0x10", "[1]", "[]", "{}", "{a:1}", "[[[[]]]]",
+    "[" * 300 + "]" * 300, "{a:" * 200 + "1" + "}" * 200, "{_target_:os.system,command:id}",
+    "{_target_: posix.system, _args_: [id]}", f"${{oc.env:{POISON}}}", "${results}", "${h}", "${",
+    "$(touch run_by_a_shell)", "`id`", "; touch run_by_a_shell", "| cat", "a\nb", "\n", "\0", "\t", "'",
+    '"', "\\", "../../x", "..", "/", ".", "~", "a/b", "<script>alert(1)</script>", "ä", "日本", "🙂",
+    "\u202e", "\ud800", "x" * 300, "range(1,4)", "range(1,1e9)", "range(1,2,0)", "range(3,1)",
+    "choice(1,2)", "choice()", "interval(1,2)", "glob(*)", "sort(1,2)", "shuffle(1,2)", "int(1.5)",
+    "float(x)", "str(1)", "bool(maybe)", "json_str({a:1})", "extend_list(1)", "tag(a,1)", "plate", "tl",
+    "thesis", "mode1", "plate,bending", "explicit", "modes", "problem", "os", "__init__", "stepping",
+    "none", "failed", "local", "basic", "slurm", "!!python/object/apply:os.system [id]", "&a", "*a",
+    "@", "%", "1.", ".5", "1e-320", "5.0", "4.999999999999999999",
+)  # fmt: skip
+
+
+class WouldRun(BaseException):
+    """Ends a command where its runs would begin, with the points it would have run."""
+
+    def __init__(self, points):
+        super().__init__()
+        self.points = points
+
+
+def _stop(hydra, points, store, launcher, force=False, name=None):
+    hydra.launcher(launcher)
+    small = [p for p in points if scene_module(p.config.scene.kind).particles(p.config) < 3000]
+    plan(small, store)
+    raise WouldRun(points)
+
+
+@contextlib.contextmanager
+def place():
+    """An empty folder to work in, where nothing really runs; studies are read from its `studies`."""
+    before, run, folder = Path.cwd(), batch.sweep, study.folder
+    with tempfile.TemporaryDirectory() as name:
+        inner = Path(name, "a", "b")
+        (inner / "studies").mkdir(parents=True)
+        os.environ[POISON] = "poison"
+        batch.sweep, study.folder = _stop, lambda: inner / "studies"
+        os.chdir(inner)
+        try:
+            yield inner
+        finally:
+            os.chdir(before)
+            batch.sweep, study.folder = run, folder
+            del os.environ[POISON]
+
+
+def outcome(arguments: list[str]) -> tuple[str, str, list]:
+    """What a command does: "refused", "would run" or "told", with what it prints and its points.
+
+    Raises AssertionError if it is refused without a reason or accepts a point that is not valid, and
+    whatever comes out of it.
+    """
+    printed, said = io.StringIO(), io.StringIO()
+    try:
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(said):
+            status = main(arguments)
+    except WouldRun as stopped:
+        for point in stopped.points:
+            assert validate(point.config.as_dict()) == point.config, point.config
+            assert "poison" not in json.dumps(point.config.as_dict())
+            assert Path(point.config.label).name == point.config.label
+        return "would run", said.getvalue(), stopped.points
+    text = printed.getvalue() + said.getvalue()
+    assert "Traceback" not in text, text
+    assert "poison" not in text, text
+    if status:
+        assert status == 2, (status, text)
+        assert said.getvalue().startswith("sphstudy: "), text
+        assert len(said.getvalue()) > len("sphstudy: \n"), "refused without a word"
+        return "refused", text, []
+    return "told", text, []
+
+
+_text = st.text(st.characters(), max_size=12)
+_number = st.one_of(st.integers(), st.floats()).map(str)
+_key = st.one_of(st.sampled_from(KEYS), st.sampled_from(KEYS), _text)
+_value = st.one_of(st.sampled_from(VALUES), st.sampled_from(VALUES), _number, _text)
+_sign = st.sampled_from(("=", "=", "=", "=", "", "+=", "==", "=[", "@x="))
+_quantity = st.sampled_from(
+    ("h", "n", "seed", "scene.E", "scene.nu", "scene.H0", "scene.rho", "checkpoint", "time_limit",
+     "memory_limit", "record.samples", "record.frames", "solve.courant", "method.hourglass", "threads")
+)  # fmt: skip
+_size = st.one_of(
+    st.integers(-1, 12).map(str),
+    st.floats(0.0, 3.0, allow_subnormal=False).map(lambda x: f"{x:.4g}"),
+    st.sampled_from(("3,5", "range(3,9,2)", "1.3,1.5", "1e3", "[0.1,0.2]", "null", "1_0")),
+)
+_argument = st.one_of(
+    st.builds("{}={}".format, _quantity, _size),
+    st.builds(lambda key, sign, value: key + sign + value, _key, _sign, _value),
+    st.builds(lambda prefix, key, value: f"{prefix}{key}={value}", st.sampled_from("+~-"), _key, _value),
+)
+OVERRIDES = st.tuples(
+    st.lists(st.sampled_from([f"{key}={value}" for key, value in CHEAP.items()]), unique=True),
+    st.lists(_argument, min_size=1, max_size=3),
+    st.booleans(),
+)
+
+
+def try_overrides(case: tuple[list[str], list[str], bool]) -> str:
+    """One command with made-up overrides."""
+    usual, bad, many = case
+    arguments = [*usual, *bad, *(["-m"] if many else [])]
+    found, _, points = outcome([a for a in arguments if a])
+    assert not Path("run_by_a_shell").exists()
+    if found == "would run":
+        _taken(bad, points)
+    return found
+
+
+def _taken(given_: list[str], points: list) -> None:
+    """Raises AssertionError if a plain number or word that was given is in none of the points."""
+    for argument in given_:
+        key, _, value = argument.partition("=")
+        values = [p.config.flat().get(key) for p in points]
+        if any(mark in value for mark in "(,[{'\"\\ \t") or key not in points[0].config.flat():
+            continue
+        assert any(_same(value, v) for v in values), (argument, values)
+
+
+def _same(text: str, value: object) -> bool:
+    if isinstance(value, bool) or value is None or isinstance(value, str):
+        return text.strip().lower() == ("null" if value is None else str(value)).lower()
+    number = float(text.replace("_", ""))
+    return math.isclose(number, float(str(value)), rel_tol=1e-11)
+
+
+_scalar = st.one_of(
+    st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8),
+    st.sampled_from([f"${{oc.env:{POISON}}}", "plate", "tl", "tiny", "generated", "[1, 2]", "a.b", "L1"]),
+)  # fmt: skip
+_known = st.sampled_from(
+    ("title", "blocks", "include", "shows", "figures", "claims", "choices", "unstable", "vary", "_target_",
+     "skip_invalid", "forbid_diverged", "where", "reason", *KEYS)
+)  # fmt: skip
+_tree = st.recursive(
+    _scalar,
+    lambda inner: st.one_of(
+        st.lists(inner, max_size=3), st.dictionaries(st.one_of(_known, _scalar), inner, max_size=4)
+    ),
+    max_leaves=10,
+)
+_grid = st.fixed_dictionaries(
+    {key: st.just(value) for key, value in CHEAP.items()},
+    optional={
+        key: _tree for key in ("seed", "vary", "scene.E", "results", "_target_", "scene.name", "retry")
+    },
+)
+_study = st.one_of(
+    _tree,
+    st.fixed_dictionaries(
+        {"title": st.one_of(st.just("t"), _scalar), "blocks": st.dictionaries(st.just("grid"), _grid)},
+        optional={"include": _tree, "figures": _tree, "claims": _tree, "unstable": _tree, "x": _tree},
+    ),
+)
+_RAW = st.sampled_from(
+    (
+        "!!python/object/apply:os.system ['touch run_by_a_shell']",
+        "title: !!python/object/apply:os.system ['touch run_by_a_shell']",
+        "title: !!python/name:os.system",
+        "a: &a [*a]", "&a {title: *a}", "title: &a t\nblocks: &b {grid: *b}", "title: t\nblocks: *nowhere",
+        "a: &a [1,1,1,1,1,1,1,1]\nb: &b [*a,*a,*a,*a,*a,*a]\nc: &c [*b,*b,*b,*b,*b]\ntitle: [*c,*c,*c,*c]",
+        "title: t\nblocks: {g: {scene: '${oc.env:%s}', n: 5}}" % POISON,
+        "title: t\nblocks: {g: {scene: plate, n: 5, _target_: os.system}}",
+        "title: t\nblocks: {g: {scene: plate, n: 5, vary: {n: ['${n}']}}}",
+        "title: t\ninclude: [generated]", "title: t\nblocks: {g: {scene: plate, n: [5, [7]]}}",
+        "", "\0", "---\n---\n", "- - -", "{" * 2000, "[" * 2000, "title: t\ntitle: u", "title: t",
+        "title: 2001-01-01", "title: t\nblocks: {g: {n: 2001-01-01}}", "? [a]\n: b", "<<: [1]",
+        "title: t\nblocks: {g: {<<: {n: 5}, scene: plate, n: 5}}", "title: <script>alert(1)</script>",
+    )
+)  # fmt: skip
+STUDIES = st.one_of(
+    _study.map(lambda tree: yaml.safe_dump(tree, allow_unicode=True).encode("utf-8", "surrogatepass")),
+    _study.map(lambda tree: json.dumps(tree, default=str).encode("utf-8", "surrogatepass")),
+    _RAW.map(str.encode),
+    st.binary(max_size=40),
+    st.text(max_size=60).map(lambda text: text.encode("utf-8", "surrogatepass")),
+)
+
+
+def try_study(text: bytes) -> str:
+    """A study file of these bytes, run."""
+    Path("studies", "generated.yaml").write_bytes(text)
+    found, _, _ = outcome(["study", "generated"])
+    assert not Path("run_by_a_shell").exists()
+    return found
+
+
+class Damaged:
+    """A record, and what becomes of it when its bytes are not what they were."""
+
+    def __init__(self, folder: Path):
+        self.store = Store(folder / "damaged")
+        sphstudy.run(results=self.store.folder, **CHEAP)
+        arguments = [f"{key}={value}" for key, value in CHEAP.items()]
+        with session() as hydra:
+            self.points = hydra.points([*arguments, f"results={self.store.folder}"], sweep=False)[0]
+        self.path = self.store.record_path(self.points[0].config)
+        self.bytes = self.path.read_bytes()
+        foreign = folder / "foreign.nc"
+        sphstudy.run(results=folder / "other", **{**CHEAP, "n": 7})
+        (other,) = (folder / "other" / "runs").glob("*.nc")
+        self.foreign = {
+            "record of another run": other.read_bytes(),
+            "combined dataset": next((folder / "other" / "sweeps").glob("*.nc")).read_bytes(),
+            "empty": b"",
+            "text": b"not a record\n" * 100,
+            "netCDF 3": b"CDF\x01" + bytes(100),
+            "HDF5 head": self.bytes[:512],
+        }
+        del foreign
+
+    def cases(self) -> st.SearchStrategy:
+        """Cut, changed in some bytes, something else, or no file at all."""
+        size = len(self.bytes)
+        place_ = st.integers(0, size - 1)
+        return st.one_of(
+            st.tuples(st.just("cut"), place_),
+            st.tuples(
+                st.just("changed"),
+                st.dictionaries(place_, st.integers(1, 255), min_size=1, max_size=5),
+            ),
+            st.tuples(st.just("foreign"), st.sampled_from(sorted(self.foreign))),
+            st.tuples(st.just("bytes"), st.binary(max_size=200)),
+            st.tuples(st.just("more"), st.binary(min_size=1, max_size=100)),
+            st.tuples(st.sampled_from(("directory", "loop", "dangling")), st.none()),
+        )
+
+    def try_record(self, case: tuple) -> str:
+        """One damaged record: named, set aside as it is, and its point would be run."""
+        kind, detail = case
+        for path in self.store.runs.glob("*.unreadable"):
+            path.rmdir() if path.is_dir() and not path.is_symlink() else path.unlink()
+        self.path.rmdir() if self.path.is_dir() and not self.path.is_symlink() else self.path.unlink(
+            missing_ok=True
+        )
+        data = self._put(kind, detail)
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            (planned,) = plan(self.points, Store(self.store.folder))
+        assert planned.runs, (planned.status, planned.reason)
+        assert planned.status in ("missing", "interrupted")
+        if kind == "dangling":
+            return kind
+        assert f"{self.path.name}: unreadable" in said.getvalue(), said.getvalue()
+        aside = self.path.with_suffix(".unreadable")
+        assert os.path.lexists(aside)
+        assert data is None or aside.read_bytes() == data
+        assert not os.path.lexists(self.path)
+        assert outcome(["status", f"results={self.store.folder}"])[0] == "told"
+        assert outcome(["prune", f"results={self.store.folder}"])[0] == "told"
+        return kind
+
+    def _put(self, kind: str, detail) -> bytes | None:
+        data = bytearray(self.bytes)
+        if kind == "directory":
+            self.path.mkdir()
+            return None
+        if kind in ("loop", "dangling"):
+            self.path.symlink_to(self.path if kind == "loop" else self.path.with_name("nowhere"))
+            return None
+        if kind == "cut":
+            data = data[:detail]
+        elif kind == "changed":
+            for position, change in detail.items():
+                data[position] ^= change
+        elif kind == "foreign":
+            data = self.foreign[detail]
+        elif kind == "bytes":
+            data = detail
+        else:
+            data += detail
+        self.path.write_bytes(data)
+        return bytes(data)
+
+
+def campaign(cases: st.SearchStrategy, attempt, count: int, seed: int) -> Counter[str]:
+    """Tries so many cases; counts what became of them."""
+    found: Counter[str] = Counter()
+
+    @hypothesis.seed(seed)
+    @settings(
+        max_examples=count,
+        deadline=None,
+        database=None,
+        suppress_health_check=list(HealthCheck),
+    )
+    @given(cases)
+    def each(case):
+        found[attempt(case)] += 1
+
+    each()
+    return found
+
+
+def run(count: int, seed: int) -> dict[str, Counter[str]]:
+    """Half of the cases are overrides, a quarter study files, a quarter bytes of records."""
+    with tempfile.TemporaryDirectory() as name:
+        # Outside of the place where nothing runs: these records are real.
+        damaged = Damaged(Path(name))
+        with place():
+            return {
+                "overrides": campaign(OVERRIDES, try_overrides, max(count // 2, 1), seed),
+                "study files": campaign(STUDIES, try_study, max(count // 4, 1), seed),
+                "records": campaign(damaged.cases(), damaged.try_record, max(count // 4, 1), seed),
+            }
+
+
+if __name__ == "__main__":
+    begun = time.monotonic()
+    results = run(*(int(a) for a in (sys.argv[1:] + ["1000", "1"][len(sys.argv) - 1 :])))
+    for name, counts in results.items():
+        print(
+            f"{name}: {counts.total()} tried; " + ", ".join(f"{n} {o}" for o, n in counts.most_common())
+        )
+    print(f"{sum(c.total() for c in results.values())} in {time.monotonic() - begun:.0f} s")

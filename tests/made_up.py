@@ -23,7 +23,9 @@ def solved(config, *_):
     cost = {name: Metric(1.0, "1", name) for name in ("cpu_seconds", "steps", "particles")}
     run = xr.Dataset({"x": ("particle", np.random.default_rng(config.n).random(4000))})
     run = record.with_outcome(run, "done", "", cost, _attributes(config))
-    return record.with_metrics(run, {"error": Metric(0.1, "1", "error")}, identity.metrics_version(config))
+    return record.with_metrics(
+        run, {"error": Metric(0.1, "1", "error")}, identity.metrics_version(config)
+    )
 
 
 class Solver:

@@ -93,7 +93,12 @@ def test_a_process_that_is_dead_but_not_waited_for_is_gone(path):
 
 @pytest.mark.parametrize(
     ("age", "alive"),
-    [(0.0, True), (claim.LOST_AFTER / 2, True), (claim.LOST_AFTER + 1, False), (-claim.LOST_AFTER - 1, False)],
+    [
+        (0.0, True),
+        (claim.LOST_AFTER / 2, True),
+        (claim.LOST_AFTER + 1, False),
+        (-claim.LOST_AFTER - 1, False),
+    ],
     ids=["now", "a while ago", "long ago", "in the future, the clock was set back"],
 )
 def test_of_another_machine_the_last_sign_of_life_counts(path, age, alive):

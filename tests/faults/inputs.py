@@ -60,6 +60,10 @@ VALUES = (
 )  # fmt: skip
 
 
+SLOW = 60.0
+"""No input may keep a command busy for so long (s)."""
+
+
 class WouldRun(BaseException):
     """Ends a command where its runs would begin, with the points it would have run."""
 
@@ -191,7 +195,9 @@ _tree = st.recursive(
 )
 _grid = st.fixed_dictionaries(
     {key: st.just(value) for key, value in CHEAP.items()},
-    optional={key: _tree for key in ("seed", "vary", "scene.E", "results", "_target_", "scene.name", "retry")},
+    optional={
+        key: _tree for key in ("seed", "vary", "scene.E", "results", "_target_", "scene.name", "retry")
+    },
 )
 _study = st.one_of(
     _tree,
@@ -334,7 +340,9 @@ def campaign(cases: st.SearchStrategy, attempt, count: int, seed: int) -> Counte
     )
     @given(cases)
     def each(case):
+        begun = time.monotonic()
         found[attempt(case)] += 1
+        assert time.monotonic() - begun < SLOW, f"{case} took {time.monotonic() - begun:.0f} s"
 
     each()
     return found
@@ -357,5 +365,7 @@ if __name__ == "__main__":
     begun = time.monotonic()
     results = run(*(int(a) for a in (sys.argv[1:] + ["1000", "1"][len(sys.argv) - 1 :])))
     for name, counts in results.items():
-        print(f"{name}: {counts.total()} tried; " + ", ".join(f"{n} {o}" for o, n in counts.most_common()))
+        print(
+            f"{name}: {counts.total()} tried; " + ", ".join(f"{n} {o}" for o, n in counts.most_common())
+        )
     print(f"{sum(c.total() for c in results.values())} in {time.monotonic() - begun:.0f} s")

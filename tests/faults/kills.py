@@ -176,7 +176,10 @@ def campaign(kills: int, seed: int) -> Counter[str]:
     """Trials of each kind in turn until there were so many kills."""
     dice, total = random.Random(seed), Counter()
     with tempfile.TemporaryDirectory() as name:
-        whole = {arguments: Reference(arguments, Path(name, f"whole-{len(arguments)}")) for arguments in (SWEEP, LONG)}
+        whole = {
+            arguments: Reference(arguments, Path(name, f"whole-{len(arguments)}"))
+            for arguments in (SWEEP, LONG)
+        }
         trial = 0
         while total["kills"] < kills:
             kind = KINDS[trial % len(KINDS)]

@@ -11,10 +11,10 @@ study: $(READY)  ## environment, then the main job: the mode I grid of the thesi
 
 test: $(READY) check  ## lint, types, default tests
 	NUMBA_DISABLE_JIT=1 $(BIN)/python -m pytest tests/sph -m 'not slow and not compiled' --quiet
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile
 
 test-slow: $(READY)  ## the tests that take minutes
-	$(BIN)/python -m pytest -m slow
+	$(BIN)/python -m pytest -m slow --numprocesses 2 --dist worksteal
 
 check: $(READY)
 	$(BIN)/ruff check .

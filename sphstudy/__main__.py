@@ -1,6 +1,7 @@
 """Command line: separates sub-commands and flags from overrides, and says how it ended."""
 
 import errno
+import importlib
 import sys
 
 from sphstudy.config import ConfigurationError
@@ -18,6 +19,7 @@ sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids 
   sphstudy compare mode1                           against the stored reference; exit status 1 outside
   sphstudy compare mode1 printed                   against the values that the thesis prints
   sphstudy compare before.nc after.nc tolerance=1e-6    two datasets, cell by cell
+  sphstudy judge stability                         which stored runs are sound, and when others went bad
   sphstudy measure mode1                           metrics again from stored fields
   sphstudy reference mode1                         stored results become the stored reference
   sphstudy extrapolate mode1 G2_error --order 1    to zero particle spacing, with uncertainty
@@ -62,11 +64,24 @@ _FLAGS = {
     "--force": "force",
     "--dry-run": "dry run",
 }
+_COMMANDS = {
+    "list": "inspection",
+    "describe": "inspection",
+    "report": "review",
+    "compare": "review",
+    "measure": "review",
+    "reference": "review",
+    "status": "status",
+    "prune": "prune",
+    "judge": "stability.command",
+    "extrapolate": "convergence",
+    "advise": "advice",
+    "peers": "peers.command",
+}
+"""Where `<command>_command` of each is, imported when it is asked for."""
+
 _DISK = (errno.EACCES, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.ENOSPC, errno.EROFS, errno.ESTALE)
 """What a disk may answer to whoever writes to it."""
-
-_LOOKING = ("list", "describe")
-_REVIEWING = ("report", "compare", "measure", "reference")
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -98,35 +113,9 @@ def _command(arguments: list[str]) -> int:
         print(__version__)
         return 0
     command = arguments[0] if arguments else ""
-    if command in _LOOKING:
-        from sphstudy import inspection
-
-        return getattr(inspection, f"{command}_command")(arguments[1:])
-    if command in _REVIEWING:
-        from sphstudy import review
-
-        return getattr(review, f"{command}_command")(arguments[1:])
-    if command == "status":
-        from sphstudy import status
-
-        return status.status_command(arguments[1:])
-    if command == "prune":
-        from sphstudy import prune
-
-        rest = [a for a in arguments[1:] if a != "--yes"]
-        return prune.prune_command(rest, yes="--yes" in arguments)
-    if command == "extrapolate":
-        from sphstudy import convergence
-
-        return convergence.extrapolate_command(arguments[1:])
-    if command == "advise":
-        from sphstudy import advice
-
-        return advice.advise_command(arguments[1:])
-    if command == "peers":
-        from sphstudy.peers.command import peers_command
-
-        return peers_command(arguments[1:])
+    if command in _COMMANDS:
+        module = importlib.import_module(f"sphstudy.{_COMMANDS[command]}")
+        return getattr(module, f"{command}_command")(arguments[1:])
     return _run(arguments)
 
 

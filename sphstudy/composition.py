@@ -71,6 +71,8 @@ class Session:
         self._composed: dict[tuple[str, ...], dict[str, Any]] = {}
         # Hydra looks through its folders every time it is asked.
         self._options = cache(self._loader.get_group_options)
+        # The same few overrides make a large grid.
+        self._parsed = cache(self._parser.parse_override)
 
     def points(
         self, arguments: list[str], sweep: bool, skipped: list[str] | None = None
@@ -166,28 +168,31 @@ class Session:
 
         Configuration groups are composed once per choice; single values are set on a copy.
         """
-        parsed = self._parser.parse_overrides(overrides)
+        parsed = [self._parsed(override) for override in overrides]
         groups = [o for o in parsed if self._options(o.key_or_group)]
         chosen = tuple(str(o.input_line) for o in groups)
         if chosen not in self._composed:
             config = self._loader.load_configuration("config", list(chosen), RunMode.RUN)
             self._composed[chosen] = _without_hydra(config)
-        config = OmegaConf.create(self._composed[chosen])
+        # Plain dictionaries, of which only what changes is copied: there may be 20 000 of them.
+        values = dict(self._composed[chosen])
         complaints = []
         for override in parsed:
             if override in groups:
                 continue
-            key = override.key_or_group
-            if not _has(config, key):
-                complaints.append(_unknown(config, override))
-                continue
-            try:
-                OmegaConf.update(config, key, override.value(), merge=False)
-            except OmegaConfBaseException as error:
-                complaints.append(f"{override.input_line}: {str(error).splitlines()[0]}")
+            *path, last = override.key_or_group.split(".")
+            node: Any = values
+            for part in path:
+                if isinstance(inner := node.get(part), dict):
+                    node[part] = dict(inner)
+                node = node.get(part) if isinstance(inner, dict) else {}
+            if last in node:
+                node[last] = override.value()
+            else:
+                complaints.append(_unknown(values, override))
         if complaints:
             raise ConfigurationError(complaints)
-        return _plain(config)
+        return values
 
     def launcher(self, overrides: list[str]) -> Launcher:
         """The launcher that the configuration and the overrides name.
@@ -208,7 +213,12 @@ class Session:
             raise ConfigurationError(
                 [f"hydra.launcher.n_jobs={jobs}: should be a whole number above 0, or -1: one per core"]
             )
-        return Launcher(config.hydra.runtime.choices["hydra/launcher"], settings)
+        name = config.hydra.runtime.choices["hydra/launcher"]
+        if name == "slurm":
+            from sphstudy.cluster_settings import settings_of
+
+            settings_of(settings)
+        return Launcher(name, settings)
 
 
 def launcher_overrides(arguments: list[str]) -> list[str]:
@@ -257,29 +267,19 @@ def _too_many(threads: int, config: RunConfig) -> str | None:
 
 
 def _without_hydra(config: DictConfig) -> dict[str, Any]:
-    plain = {key: config[key] for key in config if key != "hydra"}
-    return _plain(OmegaConf.create(plain))
-
-
-def _plain(config: DictConfig) -> dict[str, Any]:
-    values: Any = OmegaConf.to_container(config, resolve=True)
+    """As plain dictionaries."""
+    own = OmegaConf.create({key: config[key] for key in config if key != "hydra"})
+    values: Any = OmegaConf.to_container(own, resolve=True)
     return values
 
 
-def _has(config: DictConfig, key: str) -> bool:
-    node: Any = config
-    for part in key.split("."):
-        if not OmegaConf.is_dict(node) or part not in node:
-            return False
-        node = node[part]
-    return True
-
-
-def _unknown(config: DictConfig, override: Override) -> str:
+def _unknown(values: dict[str, Any], override: Override) -> str:
     *path, last = override.key_or_group.split(".")
-    node = OmegaConf.select(config, ".".join(path)) if path else config
-    if not OmegaConf.is_dict(node):
-        node, path, last = config, [], override.key_or_group
+    node: Any = values
+    for part in path:
+        node = node.get(part) if isinstance(node, dict) else None
+    if not isinstance(node, dict):
+        node, path, last = values, [], override.key_or_group
     names = sorted(str(name) for name in node)
     close = difflib.get_close_matches(last, names, n=1, cutoff=0.5)
     hint = f"did you mean {'.'.join([*path, close[0]])}?" if close else ""

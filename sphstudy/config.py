@@ -6,9 +6,9 @@ Scenes and methods are found by the `kind` in their YAML file: module `sphstudy.
 
 import dataclasses
 import importlib
-import json
 import os
 import re
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -49,10 +49,9 @@ class RunConfig:
 
     def as_dict(self) -> dict[str, Any]:
         """Nested plain dictionary: the resolved configuration as it is stored and hashed."""
-        return json.loads(TypeAdapter(RunConfig).dump_json(self, warnings=False)) | {
-            part: json.loads(TypeAdapter(type(value)).dump_json(value))
+        return adapter(RunConfig).dump_python(self, mode="json", warnings=False) | {
+            part: _adapter_of(getattr(self, part)).dump_python(getattr(self, part), mode="json")
             for part in ("scene", "method", "solve")
-            for value in (getattr(self, part),)
         }
 
     def flat(self) -> dict[str, Any]:
@@ -98,6 +97,14 @@ def solver_module(name: str) -> ModuleType:
     return _module("solve", name)
 
 
+def headline(scene: str, solver: str) -> tuple[str, ...]:
+    """What tables show of a run first: the scene's metrics, or numbers of a solver that has none of them.
+
+    scene: kind of scene; solver: its name.
+    """
+    return getattr(solver_module(solver), "HEADLINE", scene_module(scene).HEADLINE)
+
+
 def _module(package: str, name: str) -> ModuleType:
     if not (isinstance(name, str) and name.isidentifier()):
         raise ConfigurationError([f"{package}: {name!r} is not the name of a module"])
@@ -108,6 +115,17 @@ def _module(package: str, name: str) -> ModuleType:
     if not hasattr(found, "Parameters"):
         raise ConfigurationError([f"{package}: module {name!r} is none of them"])
     return found
+
+
+@cache
+def adapter(cls: Any) -> TypeAdapter:
+    """What checks values against a class of parameters, made once."""
+    return TypeAdapter(cls)
+
+
+def _adapter_of(value: Any) -> TypeAdapter:
+    cls: Any = type(value)
+    return adapter(cls)
 
 
 def validate(composed: dict[str, Any]) -> RunConfig:
@@ -163,7 +181,7 @@ def _rounded(values: Any) -> Any:
 def checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
     """The values as an instance of a class of parameters; None, and complaints added, if they are not."""
     try:
-        return TypeAdapter(cls).validate_python(values)
+        return adapter(cls).validate_python(values)
     except ValidationError as error:
         for item in error.errors():
             key = prefix + ".".join(str(part) for part in item["loc"])

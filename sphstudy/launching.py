@@ -22,10 +22,15 @@ PATIENCE = 1.0
 
 
 def workers_of(launcher: Launcher, points: list[Point]) -> int:
-    """How many runs go on at once on this machine: one a core, or fewer if runs have several threads."""
+    """How many runs go on at once: one a core of this machine, or fewer if runs have several threads.
+
+    On a cluster, as many as an array may have at work.
+    """
     jobs, cores = launcher.settings.get("n_jobs"), os.cpu_count() or 1
     threads = max((point.execution.threads for point in points), default=1)
     most = cores if jobs == -1 else jobs or cores // threads
+    if launcher.name == "slurm":
+        return int(launcher.settings["array_parallelism"])
     return 1 if launcher.name == "basic" else max(1, most)
 
 
@@ -87,10 +92,15 @@ class Launching:
                 said = True
             if waiting:
                 time.sleep(PATIENCE)
-        for p in others:
-            unstored = self._store.record_path(p.point.config) in self._unstored
-            if not unstored and self._store.status(p.point.config) in ("missing", "interrupted"):
-                self._compute(p.point)
+        left = [
+            p
+            for p in others
+            if self._store.record_path(p.point.config) not in self._unstored
+            and self._store.status(p.point.config) in ("missing", "interrupted")
+        ]
+        if left:
+            with _interrupted_cleanly():
+                self._launch(self._stamped(left))
 
     def _stamped(self, pending: list[Planned]) -> list[Planned]:
         """With what each record is known by now: one that changes meanwhile is somebody else's work."""

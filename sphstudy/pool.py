@@ -82,7 +82,7 @@ class Pool:
                 return
             if slot not in self._executors:
                 share = max(1, (os.cpu_count() or 1) // self.workers)
-                self._executors[slot] = ProcessPoolExecutor(1, env=_threads(share), timeout=None)
+                self._executors[slot] = ProcessPoolExecutor(1, env=thread_settings(share), timeout=None)
             future: Future = self._executors[slot].submit(task, job)
         try:
             future.result(deadline)
@@ -95,8 +95,8 @@ class Pool:
                 lost(job, *_why(error, deadline))
 
 
-def _threads(count: int) -> dict[str, str]:
-    """Environment of a worker that may use so many threads."""
+def thread_settings(count: int) -> dict[str, str]:
+    """Environment of a process that may use so many threads."""
     names = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
     return dict.fromkeys(names, str(count))
 

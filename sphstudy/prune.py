@@ -34,10 +34,12 @@ class Stale:
     size: int
 
 
-def prune_command(arguments: list[str], yes: bool) -> int:
+def prune_command(arguments: list[str]) -> int:
     """`sphstudy prune [results=FOLDER] [--yes]`: lists what is stale; removes it with --yes."""
-    folder = "results"
+    folder, yes = "results", "--yes" in arguments
     for argument in arguments:
+        if argument == "--yes":
+            continue
         key, _, value = argument.partition("=")
         if key != "results" or not value:
             raise ConfigurationError([f"{argument}: prune takes results=FOLDER and --yes"])

@@ -81,6 +81,10 @@ class Results:
             raise Missing(f"{self.name}: {self._label(row)} is {self.table.at[row, 'status']}")
         return record
 
+    def stored_at(self, row: int) -> xr.Dataset | None:
+        """The record of a row of the table, by its index, whatever its outcome; None if there is none."""
+        return self._record(row)
+
     def config(self, settings: dict[str, Any] | None = None, block: str | None = None) -> RunConfig:
         """The configuration of the one point with these settings, run or not. Raises Missing if there is
         not exactly one.

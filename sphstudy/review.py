@@ -19,6 +19,7 @@ from sphstudy.execution import SETTINGS
 from sphstudy.record import STATUS
 from sphstudy.results import load
 from sphstudy.runner import measured
+from sphstudy.stability import bounds
 from sphstudy.store import Store, read_dataset, write
 from sphstudy.tables import console, print_tables
 
@@ -33,7 +34,9 @@ def report_name(name: str, overrides: list[str]) -> str:
 
 
 def check(name: str) -> None:
-    """Raises ConfigurationError if a study names a claim, figure or study that does not exist."""
+    """Raises ConfigurationError if a study names a claim, figure or study that does not exist, or is to
+    be judged while a file of bounds is wrong.
+    """
     # Drawing takes a second to load, which no other command should wait for.
     from sphstudy.report import figure
 
@@ -43,6 +46,8 @@ def check(name: str) -> None:
             claim.find(claim_id)
         for figure_name in definition.figures:
             figure.find(figure_name)
+        if definition.judged:
+            bounds.check()
 
 
 def review(hydra: Session, name: str, overrides: list[str], folder: str) -> int:
@@ -70,7 +75,7 @@ def review(hydra: Session, name: str, overrides: list[str], folder: str) -> int:
 
 def report_command(arguments: list[str]) -> int:
     """`sphstudy report STUDY [key=value …]`: figures and page from stored data."""
-    name, overrides = _named(arguments, "report")
+    name, overrides = named(arguments, "report")
     with session() as hydra:
         folder = _folder(hydra, name, overrides)
         Store(folder).prepare()
@@ -79,7 +84,7 @@ def report_command(arguments: list[str]) -> int:
 
 def measure_command(arguments: list[str]) -> int:
     """`sphstudy measure STUDY [key=value …]`: metrics again from stored fields, without running."""
-    name, overrides = _named(arguments, "measure")
+    name, overrides = named(arguments, "measure")
     with session() as hydra:
         points, folder, _ = all_points(hydra, name, overrides)
         store, count = Store(folder), 0
@@ -98,7 +103,7 @@ def measure_command(arguments: list[str]) -> int:
 
 def reference_command(arguments: list[str]) -> int:
     """`sphstudy reference STUDY`: stored results become the stored reference."""
-    name, overrides = _named(arguments, "reference")
+    name, overrides = named(arguments, "reference")
     if any(not o.startswith("results=") for o in overrides):
         raise ConfigurationError(["reference: takes a study as it is, and results=FOLDER"])
     with session() as hydra:
@@ -165,7 +170,8 @@ def _print(rows: list[Comparison], limit: int | None) -> Counter[str]:
     return counts
 
 
-def _named(arguments: list[str], command: str) -> tuple[str, list[str]]:
+def named(arguments: list[str], command: str) -> tuple[str, list[str]]:
+    """Study and overrides among a command's arguments. Raises ConfigurationError if there are others."""
     if not arguments or "=" in arguments[0]:
         raise ConfigurationError([f"{command}: name one of {', '.join(study.names())}"])
     if wrong := [a for a in arguments[1:] if "=" not in a]:

@@ -127,12 +127,14 @@ def _solved(config: RunConfig, claim: Claim, keeper: CheckpointFile, execution: 
 
 
 def measured(run: xr.Dataset, config: RunConfig) -> xr.Dataset:
-    """The record with its metrics, measured from its fields; none if the run is not done.
+    """The record with its metrics, measured from its fields; none if the run is not done, or if its
+    solver leaves numbers of its own (`HEADLINE`) and no motion.
 
     What metrics remark is the message of a run that is done.
     """
     metrics = {}
-    if record.STATUS[int(run["status"])] == "done":
+    own = hasattr(solver_module(config.solve.name), "HEADLINE")
+    if record.STATUS[int(run["status"])] == "done" and not own:
         metrics = measure(run, config, scene_module(config.scene.kind).METRICS)
         remarks = [metric.remark for metric in metrics.values() if metric.remark]
         run.attrs["message"] = "; ".join(dict.fromkeys(remarks))

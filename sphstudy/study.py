@@ -12,6 +12,7 @@
     choices: [choices]          # studies of open choices that say how wide intervals of a reference are
     unstable:                   # cells whose numbers nothing may be judged by
       - {where: {h: 1.3, n: [15, 21]}, reason: why}
+    judged: true                # runs are judged by conf/bounds: the page has a stability map
     skip_invalid: true          # leave out cells that are not valid instead of refusing the study
     forbid_diverged: true       # a diverged point makes the exit status 1
 
@@ -32,6 +33,13 @@ Setting = int | float | str | bool | None
 Values = Setting | list[Setting]
 
 
+def holds(where: dict[str, Values], flat: dict[str, Any]) -> bool:
+    """Whether a flat configuration has these settings; a list: any of its values."""
+    return all(
+        flat.get(key) in (value if isinstance(value, list) else [value]) for key, value in where.items()
+    )
+
+
 @parameters
 class Unstable:
     """Cells that sit in an instability: their numbers react to anything, rounding included."""
@@ -41,10 +49,7 @@ class Unstable:
 
     def holds(self, flat: dict[str, Any]) -> bool:
         """Whether a point with these settings (flat configuration) is one of the cells."""
-        return all(
-            flat.get(key) in (value if isinstance(value, list) else [value])
-            for key, value in self.where.items()
-        )
+        return holds(self.where, flat)
 
 
 @parameters
@@ -59,6 +64,7 @@ class Study:
     claims: list[str] = described("claims checked, by id")
     choices: list[str] = described("studies of open choices, for the intervals of its reference")
     unstable: list[Unstable] = described("cells that sit in an instability")
+    judged: bool = described("whether its runs are judged by bounds, with a stability map on the page")
     skip_invalid: bool = described("leave out cells that are not valid")
     forbid_diverged: bool = described("whether a diverged point counts as failed")
 
@@ -71,6 +77,7 @@ _OPTIONAL: dict[str, Any] = {
     "claims": [],
     "choices": ["choices"],
     "unstable": [],
+    "judged": False,
     "skip_invalid": False,
     "forbid_diverged": False,
 }

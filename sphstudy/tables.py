@@ -7,7 +7,7 @@ from rich.console import Console
 from rich.table import Table
 
 from sphstudy.cells import Cell, cells, shown
-from sphstudy.config import scene_module
+from sphstudy.config import headline
 
 
 def console() -> Console:
@@ -17,15 +17,19 @@ def console() -> Console:
 
 
 def print_tables(dataset: xr.Dataset) -> None:
-    """One table a scene: a line a point with outcome, the scene's headline metrics, and cost."""
-    found = cells(dataset)
-    for scene in dict.fromkeys(cell.flat["scene"] for cell in found):
-        _print_table(dataset, [cell for cell in found if cell.flat["scene"] == scene])
+    """A line a point with outcome, headline metrics and cost; a table for each scene, and for each solver
+    with a headline of its own.
+    """
+    groups: dict[tuple, list[Cell]] = {}
+    for cell in cells(dataset):
+        shown_first = headline(cell.flat["scene.kind"], cell.flat["solve"])
+        groups.setdefault((cell.flat["scene"], shown_first), []).append(cell)
+    for (_, shown_first), found in groups.items():
+        _print_table(dataset, found, shown_first)
 
 
-def _print_table(dataset: xr.Dataset, found: list[Cell]) -> None:
-    headline = scene_module(found[0].flat["scene.kind"]).HEADLINE
-    columns = [n for n in (*headline, "cpu_seconds", "steps", "particles") if n in dataset]
+def _print_table(dataset: xr.Dataset, found: list[Cell], shown_first: tuple[str, ...]) -> None:
+    columns = [n for n in (*shown_first, "cpu_seconds", "steps", "particles") if n in dataset]
     swept = list(found[0].place)
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
     for name in (*swept, "status", *columns):

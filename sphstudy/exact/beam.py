@@ -11,6 +11,13 @@ def fundamental_frequency(youngs_modulus: float, density: float, length: float, 
     return (ROOT / length) ** 2 * height * np.sqrt(youngs_modulus / (12.0 * density))
 
 
+def thin_plate_frequency(
+    youngs_modulus: float, poisson_ratio: float, density: float, length: float, height: float
+) -> float:
+    """ω1 of a clamped-free thin plate in plane strain [rad/s]: a beam with E/(1 - ν²)."""
+    return fundamental_frequency(youngs_modulus / (1.0 - poisson_ratio**2), density, length, height)
+
+
 def mode_shape(x: np.ndarray | float, length: float) -> np.ndarray:
     """Shape of the lowest clamped-free mode, 1 at x = length (3.2); x [N] (m)."""
     cosines = np.cos(ROOT) + np.cosh(ROOT)

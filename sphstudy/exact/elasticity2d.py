@@ -16,8 +16,14 @@ from skfem.models.elasticity import linear_elasticity
 from sphstudy.sph.material import Material
 
 _GRADING = 2.5
+_INSERT_GRADING = 4.0
+"""Where a held face becomes a free one the stress is more singular than in a clamped corner."""
+
 _MESHES = (8, 16)
 """Elements over the height, coarse and fine."""
+
+_INSERT_MESHES = (12, 24)
+"""The same for a plate with an insert, whose frequency converges more slowly."""
 
 
 class Reference(NamedTuple):
@@ -37,9 +43,15 @@ class BentPlate(NamedTuple):
 
 
 @lru_cache
-def plate_frequencies(length: float, height: float, material: Material) -> tuple[Reference, Reference]:
-    """The two lowest angular frequencies (rad/s) of a plate (m) clamped at x = 0."""
-    coarse, fine = (_frequencies(length, height, material, n) for n in _MESHES)
+def plate_frequencies(
+    length: float, height: float, material: Material, insert: float = 0.0
+) -> tuple[Reference, Reference]:
+    """The two lowest angular frequencies (rad/s) of a plate (m) clamped at x = 0.
+
+    insert (m): the plate goes on to x = -insert instead, its faces held there, its end free.
+    """
+    meshes = _INSERT_MESHES if insert else _MESHES
+    coarse, fine = (_frequencies(length, height, material, n, insert) for n in meshes)
     return _reference(coarse[0], fine[0]), _reference(coarse[1], fine[1])
 
 
@@ -56,11 +68,15 @@ def _reference(coarse: float, fine: float) -> Reference:
     return Reference(fine, abs(fine - coarse))
 
 
-def _basis(length: float, height: float, elements: int) -> skfem.Basis:
-    wall = np.linspace(0.0, 1.0, 5 * elements + 1) ** _GRADING
+def _basis(length: float, height: float, elements: int, insert: float = 0.0) -> skfem.Basis:
+    grading = _INSERT_GRADING if insert else _GRADING
+    along = length * np.linspace(0.0, 1.0, 5 * elements + 1) ** grading
+    if insert:
+        inside = insert * np.linspace(1.0, 0.0, 2 * elements + 1) ** grading
+        along = np.concatenate((-inside[:-1], along))
     across = np.linspace(-1.0, 1.0, elements + 1)
-    faces = np.sign(across) * (1.0 - (1.0 - np.abs(across)) ** _GRADING)
-    mesh = skfem.MeshQuad.init_tensor(length * wall, 0.5 * height * faces)
+    faces = np.sign(across) * (1.0 - (1.0 - np.abs(across)) ** grading)
+    mesh = skfem.MeshQuad.init_tensor(along, 0.5 * height * faces)
     return skfem.Basis(mesh, skfem.ElementVector(skfem.ElementQuad2()), intorder=4)
 
 
@@ -79,10 +95,19 @@ def _first_moment(w):
     return w.x[1] * w["u"][0]
 
 
-def _frequencies(length: float, height: float, material: Material, elements: int) -> list[float]:
-    basis = _basis(length, height, elements)
+def _held(basis: skfem.Basis, height: float, insert: float) -> np.ndarray:
+    """Degrees of freedom that the clamp holds."""
+    if not insert:
+        return basis.get_dofs(lambda x: np.isclose(x[0], 0.0)).all()
+    return basis.get_dofs(lambda x: np.isclose(np.abs(x[1]), 0.5 * height) & (x[0] < 0.0)).all()
+
+
+def _frequencies(
+    length: float, height: float, material: Material, elements: int, insert: float = 0.0
+) -> list[float]:
+    basis = _basis(length, height, elements, insert)
     mass = material.density * _product.assemble(basis).tocsc()
-    free = basis.complement_dofs(basis.get_dofs(lambda x: np.isclose(x[0], 0.0)))
+    free = basis.complement_dofs(_held(basis, height, insert))
     squares = scipy.sparse.linalg.eigsh(
         _stiffness(basis, material)[free][:, free],
         k=2,

@@ -32,7 +32,10 @@ __all__ = [
     "wave_speed",
 ]
 
-SOLVERS = ("explicit", "equilibrium", "modes")
+SOLVERS = ("explicit", "equilibrium", "modes", "limit")
+
+_ASSEMBLING = ("equilibrium", "modes")
+"""Solvers that need the stiffness as a matrix."""
 
 INTEGRATORS = ("verlet", "heun")
 
@@ -88,7 +91,7 @@ def memory(particles: int, config) -> float:
     reach = support(config)
     pairs = 0.5 * particles * math.pi * reach**2
     needed = particles * BYTES_PER_PARTICLE + pairs * BYTES_PER_PAIR
-    if config.solve.name != "explicit":
+    if config.solve.name in _ASSEMBLING:
         needed += STIFFNESS_BYTES * reach**2 * particles + FACTOR_BYTES * reach * particles**1.5
     return needed
 

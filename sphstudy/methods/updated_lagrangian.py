@@ -27,7 +27,7 @@ __all__ = [
     "wave_speed",
 ]
 
-SOLVERS = ("explicit",)
+SOLVERS = ("explicit", "limit")
 
 INTEGRATORS = ("heun",)
 

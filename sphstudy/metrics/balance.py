@@ -32,7 +32,8 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     work = cumulative_trapezoid(history["constraint_power"], history["time"], initial=0.0)
     energy = history["kinetic_energy"] + history["strain_energy"]
     put_in = energy[0] + work
-    scale = float(np.max(np.abs(put_in)))
+    # Where no energy was ever put in, none can be missing: what is found is then no share of anything.
+    scale = float(np.max(np.abs(put_in))) or float(np.max(np.abs(energy))) or 1.0
     return found | {
         "dissipated_energy": Metric(
             float(put_in[-1] - energy[-1]) / scale,

@@ -37,7 +37,7 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     row) there. The columns within 2h of the wall are left out: whatever h̃ and n, they show the
     boundary effect of the clamp, alike below and above.
     """
-    state = _loaded_state(run)
+    state = loaded_state(run)
     if state is None:
         return {}
     shape = (config.n, -1)
@@ -60,7 +60,7 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     }
 
 
-def _loaded_state(run: xr.Dataset) -> xr.Dataset | None:
+def loaded_state(run: xr.Dataset) -> xr.Dataset | None:
     """The settled state, or that of the kept times at which the tip is up, closest to its highest."""
     labels = [str(label) for label in run["snapshot_label"].values]
     if "settle" in labels:

@@ -16,13 +16,14 @@ from sphstudy.report import sections, tables, text
 from sphstudy.report.sections import Origin
 from sphstudy.report.tables import Table
 from sphstudy.results import Results
+from sphstudy.stability.judge import DEGRADED
 
 WORST = 8
 """Comparisons shown at once; all of them stand below, folded."""
 
 _TONES = {
     **dict.fromkeys((REPRODUCED, WITHIN, "done"), "good"),
-    **dict.fromkeys((PARTLY, UNSTABLE, "running", "interrupted"), "middling"),
+    **dict.fromkeys((PARTLY, UNSTABLE, DEGRADED, "running", "interrupted"), "middling"),
     **dict.fromkeys((NOT, OUTSIDE, "diverged", "failed", "timeout"), "bad"),
 }
 
@@ -41,8 +42,8 @@ class Compared:
 def write(results: Results, folder: Path) -> Path:
     """Makes the report of a study, of those that it includes and of those shown with it.
 
-    Writes <folder>/figures/<name>.png and .pdf and <folder>/index.html, the latter with figures, style
-    and script inside. What is missing or goes wrong is said in its place. Returns the path of the page.
+    Writes <folder>/figures/<name>.png and .pdf or .gif, and <folder>/index.html, the latter with figures,
+    style and script inside. What is missing or goes wrong is said in its place. Returns the page's path.
     """
     folder.mkdir(parents=True, exist_ok=True)
     found = sections.studies(results)

@@ -1,6 +1,7 @@
 """Draws the figures of a study to files, and says in words why one could not be drawn."""
 
 import base64
+import math
 import sys
 import traceback
 from dataclasses import dataclass, replace
@@ -8,18 +9,27 @@ from pathlib import Path
 
 import joblib
 import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from PIL import Image
 
-from sphstudy.report.figure import STYLE, find
+from sphstudy.report.figure import STYLE, Animation, find
 from sphstudy.results import Missing, Results
 
 _SCREEN = 96
 """Pixels to an inch, as a page counts them."""
 
+_COLOURS = 128
+"""Of an animation: enough for a map of colours, and fewer bytes than 256."""
+
+_PIXELS = 18e6
+"""Of all frames of an animation together: a bit more than a megabyte."""
+
 
 @dataclass(frozen=True)
 class Drawing:
-    """A figure of a study as drawn: a PNG in base 64, or what is missing, or what went wrong.
+    """A figure of a study as drawn: a picture in base 64, or what is missing, or what went wrong.
 
     width, height: of the picture, in pixels of a screen. wide: wider than the style's usual figure.
     """
@@ -28,6 +38,7 @@ class Drawing:
     number: str
     caption: str
     image: str = ""
+    format: str = "png"
     width: int = 0
     height: int = 0
     wide: bool = False
@@ -41,7 +52,7 @@ class Drawing:
 
 
 def draw_all(results: Results, folder: Path) -> list[Drawing]:
-    """Draws every figure that the study lists into <folder>/<name>.png and .pdf.
+    """Draws every figure that the study lists into <folder>/<name>.png and .pdf, or .gif if it moves.
 
     What goes wrong in drawing a figure is said in its place, and on standard error with the line.
     """
@@ -54,7 +65,7 @@ def draw_all(results: Results, folder: Path) -> list[Drawing]:
     )
 
 
-def _drawn(name: str, results: Results, folder: Path) -> tuple[Drawing, Figure | None]:
+def _drawn(name: str, results: Results, folder: Path) -> tuple[Drawing, Figure | Animation | None]:
     """What the figure is, or why there is none."""
     # What an earlier report drew must not outlive the data it was drawn from.
     for file in _files(name, folder):
@@ -71,27 +82,57 @@ def _drawn(name: str, results: Results, folder: Path) -> tuple[Drawing, Figure |
         return _failed(drawing, error), None
 
 
-def _written(drawing: Drawing, figure: Figure | None, folder: Path) -> Drawing:
+def _written(drawing: Drawing, drawn: Figure | Animation | None, folder: Path) -> Drawing:
     """Writes the figure, if there is one, to its files."""
-    if figure is None:
+    if drawn is None:
         return drawing
-    png, pdf = _files(drawing.name, folder)
+    figure = drawn.figure if isinstance(drawn, Animation) else drawn
+    png, pdf, gif = _files(drawing.name, folder)
     try:
         with matplotlib.rc_context(fname=STYLE):
+            if isinstance(drawn, Animation):
+                _write_moving(drawn, gif)
             figure.savefig(png, metadata={"Software": None})
-            # Laid out once, which is most of the work. No date: the same data make the same file.
-            figure.set_layout_engine("none")
-            figure.savefig(pdf, metadata={"CreationDate": None})
+            if isinstance(drawn, Figure):
+                # Laid out once, which is most of the work. No date: the same data make the same file.
+                figure.set_layout_engine("none")
+                figure.savefig(pdf, metadata={"CreationDate": None})
             wide = figure.get_figwidth() > matplotlib.rcParams["figure.figsize"][0]
     except Exception as error:
         return _failed(drawing, error)
     width, height = (round(_SCREEN * inches) for inches in figure.get_size_inches())
-    image = base64.b64encode(png.read_bytes()).decode()
-    return replace(drawing, image=image, width=width, height=height, wide=wide)
+    shown = gif if isinstance(drawn, Animation) else png
+    image = base64.b64encode(shown.read_bytes()).decode()
+    format = shown.suffix.removeprefix(".")
+    return replace(drawing, image=image, format=format, width=width, height=height, wide=wide)
 
 
-def _files(name: str, folder: Path) -> tuple[Path, Path]:
-    return folder / f"{name}.png", folder / f"{name}.pdf"
+def _write_moving(animation: Animation, path: Path) -> None:
+    """Writes all frames, from the first to the last, which the figure shows afterwards. One palette."""
+    figure, frames = animation.figure, []
+    pixels = animation.frames * _SCREEN**2 * figure.get_figwidth() * figure.get_figheight()
+    resolution = _SCREEN * min(1.0, math.sqrt(_PIXELS / pixels))
+    canvas = FigureCanvasAgg(figure)
+    figure.set_dpi(resolution)
+    for k in range(animation.frames):
+        animation.draw(k)
+        canvas.draw()
+        # Laid out once: nothing but what moves may move.
+        figure.set_layout_engine("none")
+        frames.append(Image.fromarray(np.array(canvas.buffer_rgba())).convert("RGB"))
+    width, height = frames[0].size
+    chosen = frames[:: max(1, len(frames) // 4)]
+    together = Image.new("RGB", (width, height * len(chosen)))
+    for k, frame in enumerate(chosen):
+        together.paste(frame, (0, height * k))
+    palette = together.quantize(_COLOURS, Image.Quantize.MAXCOVERAGE)
+    first, *others = (frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
+    milliseconds = round(1000.0 * animation.duration)
+    first.save(path, save_all=True, append_images=others, duration=milliseconds, loop=0, optimize=True)
+
+
+def _files(name: str, folder: Path) -> tuple[Path, Path, Path]:
+    return folder / f"{name}.png", folder / f"{name}.pdf", folder / f"{name}.gif"
 
 
 def _failed(drawing: Drawing, error: Exception) -> Drawing:

@@ -10,10 +10,12 @@ import pandas as pd
 from sphstudy import study
 from sphstudy.effects import effects
 from sphstudy.record import STATUS
-from sphstudy.report import cheapest, render, tables, text
+from sphstudy.report import cheapest, render, tables, text, time_steps
 from sphstudy.report.render import Drawing
 from sphstudy.report.tables import Group, Setting, Table
 from sphstudy.results import Results
+from sphstudy.stability.cases import judged
+from sphstudy.stability.tables import bounds, quoted, stability_map
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,8 @@ class Section:
     stored: bool
     drawings: list[Drawing]
     groups: list[GroupTables]
-    cheapest: list[Table]
+    overviews: list[Table]
+    judged: list[Table]
     not_done: list[NotDone]
 
 
@@ -83,9 +86,16 @@ def section(results: Results, folder: Path) -> Section:
         stored=stored,
         drawings=render.draw_all(results, folder) if stored else [],
         groups=[_tables(group) for group in tables.groups(results, rows)] if stored else [],
-        cheapest=cheapest.tables(results) if stored else [],
+        overviews=[*cheapest.tables(results), *time_steps.tables(results)] if stored else [],
+        judged=_judged(results) if stored and definition.judged else [],
         not_done=[_not_done(row) for _, row in rows[rows["status"] != "done"].iterrows()],
     )
+
+
+def _judged(results: Results) -> list[Table]:
+    cases = judged(results)
+    found = (stability_map(cases), bounds(cases), quoted(results, cases))
+    return [table for table in found if table is not None]
 
 
 def _tables(group: Group) -> GroupTables:

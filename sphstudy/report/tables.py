@@ -9,7 +9,7 @@ import pandas as pd
 
 from sphstudy import collect
 from sphstudy.compare import Comparison
-from sphstudy.config import RunConfig, scene_module
+from sphstudy.config import RunConfig, headline
 from sphstudy.effects import Effect
 from sphstudy.report import text
 from sphstudy.results import Results
@@ -73,8 +73,9 @@ class Group:
 
     @property
     def headline(self) -> list[str]:
-        """The scene's metrics for tables, as far as any point of the study has them."""
-        names = scene_module(self.configs[0].scene.kind).HEADLINE
+        """The metrics for tables of its points, as far as any point of the study has them."""
+        kinds = dict.fromkeys((config.scene.kind, config.solve.name) for config in self.configs)
+        names = dict.fromkeys(name for kind in kinds for name in headline(*kind))
         return [name for name in names if name in self.results.attributes]
 
     def units(self, metric: str) -> str:

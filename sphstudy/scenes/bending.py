@@ -3,7 +3,7 @@
 import numpy as np
 
 from sphstudy.parameters import number, parameters
-from sphstudy.scenes.plate import PlateParameters, check, particles, plate_body
+from sphstudy.scenes.plate import PlateParameters, check, end_particle, particles, plate_body
 from sphstudy.scenes.problem import Problem, Stage
 from sphstudy.sph.constraints import Constraints
 
@@ -50,5 +50,5 @@ def build(config) -> Problem:
         energy_compliance=body.material.compliance,
         velocity_x=np.zeros(body.x.size),
         velocity_y=np.zeros(body.x.size),
-        tracked=int(np.flatnonzero(body.tags["centreline"] & body.tags["end"])[0]),
+        tracked=end_particle(body),
     )

@@ -24,8 +24,8 @@ HEADLINE = (
 
 
 @parameters
-class PlateParameters:
-    """A plate with `n` rows (odd: the centreline carries particles) and slenderness·n columns."""
+class SlabParameters:
+    """The elastic body: a plate of length L beyond its clamp, `n` rows high."""
 
     name: str = described("name of the scene")
     kind: str = described("module that builds it")
@@ -35,6 +35,12 @@ class PlateParameters:
     L: float = number("length", "m", gt=0)
     slenderness: int = count("length over height; columns per row", ge=2)
     plane: Literal["strain", "stress"] = described("plane strain or plane stress")
+
+
+@parameters
+class PlateParameters(SlabParameters):
+    """A plate clamped by columns of particles: slenderness·n columns from x = 0 on."""
+
     columns: Literal["linspace", "spacing"] = described(
         "columns from 0 to L - Δx/2 evenly (Δx = L/(12n - 1/2)), or at kΔy, half a cell short of L",
     )
@@ -71,13 +77,26 @@ def plate_body(config) -> Body:
     columns = scene.slenderness * rows
     spacing_x = scene.L / (columns - 0.5) if scene.columns == "linspace" else spacing_y
     x = spacing_x * np.arange(1 - scene.clamped_columns, columns)
-    y = spacing_y * (np.arange(rows) - rows // 2)
+    return slab(x, rows, spacing_x, spacing_y, Material(scene.E, scene.nu, scene.rho, scene.plane))
+
+
+def slab(x: np.ndarray, rows: int, spacing_x: float, spacing_y: float, material: Material) -> Body:
+    """A lattice of columns at x (m) and of rows about y = 0, with the tags of `plate_body`.
+
+    There is no particle on the centreline if `rows` is even.
+    """
+    y = spacing_y * (np.arange(rows) - 0.5 * (rows - 1))
     grid_x, grid_y = lattice(x, y)
-    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
     tags = {"clamped": grid_x <= 0.0, "centreline": grid_y == 0.0, "end": grid_x == x[-1]}
-    mass = np.full(grid_x.size, scene.rho * spacing_x * spacing_y)
-    sites = lattice_sites(x.size, y.size)
+    mass = np.full(grid_x.size, material.density * spacing_x * spacing_y)
+    sites = lattice_sites(x.size, rows)
     return Body(grid_x, grid_y, mass, spacing_x, spacing_y, material, tags, sites)
+
+
+def end_particle(body: Body) -> int:
+    """Index of the particle of the last column closest to the mid-line; the lower one of two."""
+    end = np.flatnonzero(body.tags["end"])
+    return int(end[np.argmin(np.abs(body.y[end]))])
 
 
 def represented_length(config) -> float:
@@ -91,19 +110,26 @@ def represented_length(config) -> float:
 def build(config) -> Problem:
     """Problem of the vibrating plate: clamp, initial velocity (3.2), one free stage."""
     scene = config.scene
-    body = plate_body(config)
     omega = beam.fundamental_frequency(scene.E, scene.rho, scene.L, scene.L / scene.slenderness)
+    body = plate_body(config)
+    velocity = beam.mode_shape(body.x, scene.L) * scene.H0 * scene.L * omega
+    return vibrating(body, velocity, scene.periods * 2.0 * np.pi / omega)
+
+
+def vibrating(body: Body, velocity: np.ndarray, duration: float) -> Problem:
+    """A plate, held where it is tagged "clamped", that is pushed and left to itself for a time (s).
+
+    velocity [N]: initial v_y (m/s) of the particles at x > 0; all others begin at rest.
+    """
     clamped = np.flatnonzero(body.tags["clamped"])
     still = np.zeros(clamped.size)
-    velocity = beam.mode_shape(body.x, scene.L) * scene.H0 * scene.L * omega
-    velocity[clamped] = 0.0
     return Problem(
         body=body,
         constraints=Constraints(clamped, still, clamped, still),
-        stages=(Stage("vibrate", "run", duration=scene.periods * 2.0 * np.pi / omega),),
+        stages=(Stage("vibrate", "run", duration=duration),),
         step_spacing=body.spacing_y,
         energy_compliance=body.material.compliance,
         velocity_x=np.zeros(body.x.size),
-        velocity_y=velocity,
-        tracked=int(np.flatnonzero(body.tags["centreline"] & body.tags["end"])[0]),
+        velocity_y=np.where(body.x > 0.0, velocity, 0.0),
+        tracked=end_particle(body),
     )

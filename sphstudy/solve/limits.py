@@ -26,14 +26,21 @@ def breached(history: list[tuple[float, ...]], spacing: float, solve) -> str:
 
 
 def energy_gain(history: list[tuple[float, ...]]) -> float:
-    """Energy found less energy put in, over the most of either that there was; initial energy counts as
-    put in.
-    """
-    time, kinetic, strain, power = (
-        np.array([row[HISTORY.index(name)] for row in history])
-        for name in ("time", "kinetic_energy", "strain_energy", "constraint_power")
-    )
-    found = kinetic + strain
-    put_in = found[0] + np.concatenate(([0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(time))))
+    """Energy found less energy put in, over the most of either that there was."""
+    columns = ("time", "kinetic_energy", "strain_energy", "constraint_power")
+    table = np.array(history)
+    found, put_in = energies(*(table[:, HISTORY.index(name)] for name in columns))
     scale = max(np.abs(found).max(), np.abs(put_in).max())
     return float(found[-1] - put_in[-1]) / scale if scale > 0.0 else 0.0
+
+
+def energies(
+    time: np.ndarray, kinetic: np.ndarray, strain: np.ndarray, power: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Energy found and energy put in at each sample (J/m); initial energy counts as put in.
+
+    All [S]; time (s), energies (J/m), power of the constraints (W/m).
+    """
+    found = kinetic + strain
+    work = np.concatenate(([0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(time))))
+    return found, found[0] + work

@@ -11,7 +11,8 @@ from sphstudy.sph.invariants import Invariants
 class System(Protocol):
     """A problem as it is stepped: it owns the state and whatever else one step hands to the next.
 
-    state [rows, N]: whole, so that a run can go on from it and `memory`. pairs: most pairs so far.
+    state [rows, N]: whole, so that a run can go on from it and `memory`; its first rows are x, y and the
+    velocity's. pairs: most pairs so far.
     """
 
     state: np.ndarray

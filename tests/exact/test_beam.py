@@ -38,6 +38,12 @@ def test_frequency_of_the_thesis_plate():
     assert omega * (1.8751040687 / 1.8751) ** 2 == pytest.approx(0.960789, abs=5e-7)
 
 
+def test_thin_plate_is_stiffer_than_a_beam():
+    """Gray, Monaghan and Swift's plate has a period of 0.254 s."""
+    omega = beam.thin_plate_frequency(2e6, 0.3975, 1000.0, 0.2, 0.02)
+    assert 2.0 * math.pi / omega == pytest.approx(0.254, abs=5e-5)
+
+
 def test_root_solves_the_frequency_equation_to_its_printed_digits():
     exact = brentq(lambda a: math.cos(a) * math.cosh(a) + 1.0, 1.5, 2.5)
     assert exact == pytest.approx(beam.ROOT, abs=5e-5)

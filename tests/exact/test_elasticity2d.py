@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+import scipy.sparse.linalg
+import skfem
 from scipy.interpolate import make_interp_spline
 
 from sphstudy.exact import beam, elasticity2d
@@ -30,12 +32,58 @@ def test_second_frequency_of_the_thesis_plate(plane, omega):
     assert second.value == pytest.approx(omega, abs=1e-4)
 
 
-@pytest.mark.parametrize("nu", [0.3, 0.49])
+@pytest.mark.parametrize("nu", [0.3, 0.49, pytest.param(0.495, marks=pytest.mark.slow)])
 def test_error_estimate_bounds_the_distance_to_a_finer_mesh(nu):
     material = Material(1e6, nu, 7750.0, "strain")
     reference = plate_frequencies(1.0, 1.0 / 12.0, material)[0]
     finer = elasticity2d._frequencies(1.0, 1.0 / 12.0, material, 24)[0]
     assert 0.0 < abs(reference.value - finer) < reference.error < 2e-4 * finer
+
+
+GRAY = Material(2e6, 0.3975, 1000.0, "strain")
+
+
+def gray_period(insert):
+    omega = plate_frequencies(0.2, 0.02, GRAY, insert)[0]
+    return 2.0 * np.pi / omega.value, 2.0 * np.pi / omega.value * omega.error / omega.value
+
+
+def test_period_of_gray_monaghan_and_swifts_plate():
+    period, error = gray_period(0.0)
+    assert period == pytest.approx(0.2552, abs=5e-5)
+    assert error < 0.03 * 0.003 * period
+
+
+@pytest.mark.parametrize(("insert", "period"), [(0.01, 0.26313), (0.02, 0.26280)])
+def test_insert_lengthens_the_period_and_a_shorter_one_more(insert, period):
+    """From meshes three times as fine; the next test confirms the second with other elements."""
+    omega = elasticity2d._frequencies(0.2, 0.02, GRAY, 8, insert)[0]
+    assert 2.0 * np.pi / omega == pytest.approx(period, abs=2e-4)
+
+
+def triangles_with_an_insert(refinements):
+    """The same period by quadratic triangles, refined again and again where the held faces end."""
+    mesh = skfem.MeshTri.init_tensor(np.linspace(-0.02, 0.2, 45), np.linspace(-0.01, 0.01, 5))
+    for k in range(refinements):
+        x, y = mesh.p[:, mesh.t].mean(axis=1)
+        reach = 0.008 * 0.6**k
+        mesh = mesh.refined(np.flatnonzero(np.hypot(x, np.abs(y) - 0.01) < reach))
+    basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementTriP2()), intorder=4)
+    held = basis.get_dofs(lambda x: np.isclose(np.abs(x[1]), 0.01) & (x[0] < 0.0))
+    free = basis.complement_dofs(held)
+    stiffness = elasticity2d._stiffness(basis, GRAY)[free][:, free]
+    mass = 1000.0 * elasticity2d._product.assemble(basis).tocsc()[free][:, free]
+    square = scipy.sparse.linalg.eigsh(
+        stiffness, k=1, M=mass, sigma=0.0, v0=np.ones(free.size), return_eigenvectors=False
+    )
+    return float(2.0 * np.pi / np.sqrt(square[0]))
+
+
+@pytest.mark.slow
+def test_insert_lengthens_the_period_as_much_as_other_elements_say():
+    period, error = gray_period(0.02)
+    assert error < 2e-4 * period
+    assert abs(period - triangles_with_an_insert(10)) < error
 
 
 def test_slender_plate_in_plane_stress_is_a_beam():

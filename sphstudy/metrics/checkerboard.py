@@ -1,0 +1,32 @@
+"""Restoring force of a checkerboard, and the work it took to make it, against those of the solid."""
+
+import numpy as np
+import xarray as xr
+
+from sphstudy.exact.waves import checkerboard_stiffness
+from sphstudy.metrics.metric import Metric
+from sphstudy.scenes.checkerboard import pattern
+from sphstudy.sph.material import Material
+
+
+def measure(run: xr.Dataset, config) -> dict[str, Metric]:
+    """Mean stiffness over all particles, weighted with their squared displacements.
+
+    At the end of loading: the power of the constraints over their rate is Σ F · target.
+    """
+    scene = config.scene
+    target = scene.amplitude * float(run["spacing_x"]) * pattern(config.n)
+    squares = float(target @ target)
+    physical = checkerboard_stiffness(Material(scene.E, scene.nu, scene.rho, scene.plane))
+    duration = float(run["steps_load"]) * float(run["time_step"])
+    found = float(run["history_constraint_power"].values[-1]) * duration / squares
+    time, power = run["history_time"].values, run["history_constraint_power"].values
+    work = float(np.trapezoid(power, time))
+    return {
+        "restoring_stiffness": Metric(found, "Pa", "force per displacement and thickness on a particle"),
+        "physical_stiffness": Metric(physical, "Pa", "the same in the solid, for the same plane wave"),
+        "restoring_ratio": Metric(found / physical, "1", "restoring force over that of the solid"),
+        "work_ratio": Metric(
+            work / (0.5 * physical * squares), "1", "work of loading over that done on the solid"
+        ),
+    }

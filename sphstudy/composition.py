@@ -133,8 +133,8 @@ class Session:
         for argument in arguments:
             try:
                 override = self._parser.parse_override(argument)
-            except HydraException:
-                complaints.append(f"{argument}: not understood; write key=value")
+            except (HydraException, ValueError, RecursionError):
+                complaints.append(f"{_shortened(argument)}: not understood; write key=value")
                 continue
             complaints += self._complaint(override)
             if any(other.key_or_group == override.key_or_group for other in overrides):
@@ -245,6 +245,10 @@ def taken_execution(composed: dict[str, Any]) -> Execution:
     if complaints:
         raise ConfigurationError(complaints)
     return found
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= 100 else f"{text[:100]}…"
 
 
 def _spanned(overrides: list[Override]) -> int:

@@ -96,6 +96,26 @@ def test_every_outcome_of_a_study_and_what_is_left(store, capsys):
     assert "unreadable" in shown.err
 
 
+def test_a_run_that_was_killed_when_all_was_done_is_done(store, capsys):
+    (done,) = points("n=5")
+    lost = next(p for p in store.runs.glob("*-n13-*.running.json"))
+    store.claim_path(done.config).write_bytes(lost.read_bytes())
+    os.utime(store.claim_path(done.config), (1.0, 1.0))
+    for arguments in (["status"], ["status", "tiny"]):
+        main(arguments)
+        assert " done " in lines(capsys.readouterr().out)[5]
+
+
+def test_a_run_that_was_interrupted_and_can_go_on_is_listed(store, capsys):
+    (missing,) = points("n=17")
+    store.checkpoint_path(missing.config).write_text("")
+    for arguments in (["status"], ["status", "tiny"]):
+        main(arguments)
+        line = lines(capsys.readouterr().out)[17]
+        assert " interrupted " in line
+        assert "goes on from its checkpoint" in line
+
+
 def test_a_clock_that_was_set_back_changes_no_outcome(store, capsys):
     main(["status"])
     capsys.readouterr()

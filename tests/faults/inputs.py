@@ -217,7 +217,7 @@ _RAW = st.sampled_from(
         "title: t\nblocks: {g: {scene: plate, n: 5, _target_: os.system}}",
         "title: t\nblocks: {g: {scene: plate, n: 5, vary: {n: ['${n}']}}}",
         "title: t\ninclude: [generated]", "title: t\nblocks: {g: {scene: plate, n: [5, [7]]}}",
-        "", "\0", "---\n---\n", "- - -", "{" * 2000, "[" * 2000, "title: t\ntitle: u", "title: t",
+        "", "\0", "---\n---\n", "- - -", "{" * 600, "[" * 600, "title: t\ntitle: u", "title: t",
         "title: 2001-01-01", "title: t\nblocks: {g: {n: 2001-01-01}}", "? [a]\n: b", "<<: [1]",
         "title: t\nblocks: {g: {<<: {n: 5}, scene: plate, n: 5}}", "title: <script>alert(1)</script>",
     )

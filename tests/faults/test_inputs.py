@@ -1,4 +1,4 @@
-"""Bad input: a few cases by hand, and a reduced number of made-up ones (`python -m tests.faults.inputs`)."""
+"""Bad input: some by hand, and a reduced number of made-up ones (see inputs.py)."""
 
 import netCDF4
 import numpy as np

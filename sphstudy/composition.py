@@ -2,6 +2,8 @@
 
 import dataclasses
 import difflib
+import itertools
+import math
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -31,6 +33,9 @@ from sphstudy.execution import RETRIES, Execution
 
 LAUNCHERS = ("local", "basic", "slurm")
 """Side by side on this machine, one after the other in this process, jobs of a SLURM cluster."""
+
+MOST_POINTS = 100_000
+"""Of one sweep: more are a slip of the pen, and take all memory."""
 
 _LAUNCHER = ("hydra/launcher", "hydra.launcher")
 
@@ -84,6 +89,8 @@ class Session:
                 raise ConfigurationError(
                     [f"{o.input_line}: several values make a sweep: add -m" for o in many]
                 )
+        if (spanned := _spanned(overrides)) > MOST_POINTS:
+            raise ConfigurationError([f"a sweep of {spanned:,} points or more: at most {MOST_POINTS:,}"])
         grid = BasicSweeper.split_arguments(overrides, None)[0]
         complaints: dict[str, None] = {}
         points: list[Point] = []
@@ -126,8 +133,8 @@ class Session:
         for argument in arguments:
             try:
                 override = self._parser.parse_override(argument)
-            except HydraException:
-                complaints.append(f"{argument}: not understood; write key=value")
+            except (HydraException, ValueError, RecursionError):
+                complaints.append(f"{_shortened(argument)}: not understood; write key=value")
                 continue
             complaints += self._complaint(override)
             if any(other.key_or_group == override.key_or_group for other in overrides):
@@ -148,6 +155,8 @@ class Session:
             yield f"{line}: set by the program itself"
         elif key.startswith("hydra"):
             yield f"{line}: of Hydra's own keys, hydra/launcher and hydra.launcher.* can be set"
+        elif override.is_sweep_override() and not override.is_discrete_sweep():
+            yield f"{line}: write single values, or a range"
         elif "." not in key and (options := self._options(key)):
             many = override.is_sweep_override()
             for value in override.sweep_iterator() if many else [override.value()]:
@@ -236,6 +245,19 @@ def taken_execution(composed: dict[str, Any]) -> Execution:
     if complaints:
         raise ConfigurationError(complaints)
     return found
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= 100 else f"{text[:100]}…"
+
+
+def _spanned(overrides: list[Override]) -> int:
+    """How many points overrides span, counted no further than too many."""
+    return math.prod(
+        sum(1 for _ in itertools.islice(o.sweep_iterator(), MOST_POINTS + 1))
+        for o in overrides
+        if o.is_sweep_override()
+    )
 
 
 def _too_many(threads: int, config: RunConfig) -> str | None:

@@ -11,7 +11,7 @@ from rich.table import Table
 
 from sphstudy import study
 from sphstudy.blocks import all_points
-from sphstudy.claim import holder, is_alive
+from sphstudy.claim import Holder, holder, is_alive
 from sphstudy.composition import session
 from sphstudy.config import ConfigurationError
 from sphstudy.display import duration
@@ -71,7 +71,13 @@ def _of_folder(arguments: list[str]) -> list[Line]:
         raise ConfigurationError([f"results={folder}: there are no runs"])
     stems = {path.stem for path in store.runs.glob("*.nc") if not path.name.startswith(".")}
     claimed = {path.name.removesuffix(_SUFFIX) for path in store.runs.glob(f"*{_SUFFIX}")}
-    lines = [_line(store, store.runs / stem, stem in claimed) for stem in sorted(stems | claimed)]
+    kept = {path.stem for path in store.runs.glob("*.checkpoint")}
+    # What is set aside while it is looked at is listed below.
+    lines = [
+        line
+        for stem in sorted(stems | claimed | kept)
+        if (line := _line(store, store.runs / stem, stem in claimed, stem in kept))
+    ]
     lines += [
         Line(path.stem, "unreadable", float("nan"), "set aside; the run is done again when asked for")
         for path in sorted(store.runs.glob("*.unreadable"))
@@ -80,19 +86,27 @@ def _of_folder(arguments: list[str]) -> list[Line]:
     return lines
 
 
-def _line(store: Store, stem: Path, claimed: bool) -> Line:
+def _line(store: Store, stem: Path, claimed: bool, kept: bool) -> Line | None:
+    """A run with a claim, a checkpoint, or a record; None if it has none of them that can be read."""
     claim = stem.with_name(stem.name + _SUFFIX)
-    if claimed and (note := holder(claim)) is not None:
-        alive = is_alive(claim)
-        since = time.strftime("%Y-%m-%d %H:%M", time.localtime(note.started))
-        where = f"process {note.process} on {note.host}, since {since}, {'alive' if alive else 'lost'}"
-        step = f"step {note.step:,} of {note.steps:,}, " if note.steps else ""
-        return Line(stem.name, "running" if alive else "interrupted", float("nan"), step + where)
-    summary = store.summary_at(stem.with_name(stem.name + ".nc"))
-    if summary is None:
-        return Line(stem.name, "unreadable", float("nan"), "set aside just now")
-    seconds = summary.numbers.get("cpu_seconds", (float("nan"), {}))[0]
-    return Line(stem.name, summary.status, seconds, summary.attributes["message"])
+    alive = claimed and is_alive(claim)
+    if not alive and (summary := store.summary_at(stem.with_name(stem.name + ".nc"))):
+        # A claim that is lost beside a record: its process was killed when all was done.
+        seconds = summary.numbers.get("cpu_seconds", (float("nan"), {}))[0]
+        return Line(stem.name, summary.status, seconds, summary.attributes["message"])
+    if alive or claimed or kept:
+        told = _told(holder(claim), alive) if claimed else "it goes on from its checkpoint"
+        return Line(stem.name, "running" if alive else "interrupted", float("nan"), told)
+    return None
+
+
+def _told(note: Holder | None, alive: bool) -> str:
+    """Where a run is computed, since when, and how far it is."""
+    if note is None:
+        return "its claim cannot be read"
+    since = time.strftime("%Y-%m-%d %H:%M", time.localtime(note.started))
+    where = f"process {note.process} on {note.host}, since {since}, {'alive' if alive else 'lost'}"
+    return (f"step {note.step:,} of {note.steps:,}, " if note.steps else "") + where
 
 
 def _of_study(name: str, overrides: list[str]) -> tuple[list[Line], str]:
@@ -110,9 +124,11 @@ def _of_study(name: str, overrides: list[str]) -> tuple[list[Line], str]:
 
 def _of_point(store: Store, config, status: str) -> Line:
     stem = store.record_path(config).with_suffix("")
-    if store.claim_path(config).exists() or store.record_path(config).exists():
-        return _line(store, stem, store.claim_path(config).exists())
-    return Line(stem.name, status, float("nan"), "")
+    claimed, kept = store.claim_path(config).exists(), store.checkpoint_path(config).exists()
+    line = None
+    if claimed or kept or store.record_path(config).exists():
+        line = _line(store, stem, claimed, kept)
+    return line or Line(stem.name, status, float("nan"), "")
 
 
 def _pace(store: Store, planned) -> Iterator[str]:

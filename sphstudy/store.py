@@ -44,6 +44,9 @@ _PASSING = (errno.EACCES, errno.EIO, errno.EMFILE, errno.ENFILE, errno.ENOMEM, e
 _NEEDED = ("title", "message", "key", "configuration", "numerics_version", "date_created")
 """Attributes without which a file is no record."""
 
+_HEAD = 1_000_000
+"""Bytes that a file may take beside its numbers."""
+
 REUSED = ("done", "diverged")
 """Outcomes that are results: such a point is not computed again."""
 
@@ -255,13 +258,13 @@ def write(dataset: xr.Dataset, path: Path, format: Format = "NETCDF4") -> None:
 
 
 def _to_netcdf(dataset: xr.Dataset, path: str, **how: Any) -> None:
-    """Raises OSError where HDF5 only says that it could not write."""
+    """Raises OSError where HDF5 only says that it could not write, in several ways if a disk is full."""
     try:
         dataset.to_netcdf(path, engine="netcdf4", **how)
-    except RuntimeError as error:
-        raise OSError(errno.EIO, f"{error}: {_room(Path(path).parent)}", path) from None
-
-
-def _room(folder: Path) -> str:
-    free = os.statvfs(folder)
-    return f"{free.f_bavail * free.f_frsize / 1e6:.1f} MB are free"
+    except (RuntimeError, OSError) as error:
+        room = os.statvfs(Path(path).parent)
+        free = room.f_bavail * room.f_frsize
+        if free < dataset.nbytes + _HEAD:
+            told = f"{os.strerror(errno.ENOSPC)} ({free / 1e6:.1f} MB are free)"
+            raise OSError(errno.ENOSPC, told, path) from None
+        raise OSError(errno.EIO, str(error), path) from None

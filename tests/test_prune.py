@@ -88,7 +88,7 @@ def test_only_what_is_listed_is_removed(folder, capsys):
 
 
 def test_an_unfinished_write_goes_when_nobody_writes(folder, capsys):
-    store, expected = folder
+    store, _ = folder
     for path in store.runs.glob("*-n9-*"):
         path.unlink()
     main(["prune", "--yes"])

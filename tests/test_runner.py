@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-
 from sphstudy.claim import Claim
 from sphstudy.runner import ELSEWHERE, TimedOut, compute, computed, give_up, job
 from sphstudy.store import Store

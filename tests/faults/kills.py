@@ -96,7 +96,7 @@ class Reference:
 
 
 def contents(folder: Path) -> dict[str, str]:
-    """The combined dataset and every record, each as a digest of what must not depend on interruptions."""
+    """The combined dataset and every record, each as a digest of what interruptions must not change."""
     found = {path.name: read(path) for path in sorted((folder / "runs").glob("*.nc"))}
     found |= {path.name: read_dataset(str(path), folder) for path in (folder / "sweeps").glob("*.nc")}
     return {name: _lasting(dataset) for name, dataset in found.items() if dataset is not None}
@@ -188,6 +188,7 @@ def campaign(kills: int, seed: int) -> Counter[str]:
             found = one.go(min(RESTARTS, kills - total["kills"]))
             total += Counter({**found, f"kills of {kind}": found["kills"], "trials": 1})
             trial += 1
+            print(f"trial {trial}: {found['kills']} kills of {kind}", file=sys.stderr)
             if any(found[wrong] for wrong in WRONG):
                 said = (one.folder / "said.txt").read_text(errors="replace")
                 print(f"trial {trial}, {kind}: {dict(found)}\n{said}", file=sys.stderr)

@@ -1,7 +1,7 @@
 """What a study of 20 000 points costs: python -m tests.faults.scale 20000 [FOLDER].
 
-The records are copies of a small one under the names of other points, without fields. Prints wall time and
-peak memory of each command, as a user would type it, in a process of its own.
+The records are copies of a small one under the names of other points, without fields. Prints wall time
+and peak memory of each command, as a user would type it, in a process of its own.
 """
 
 import json
@@ -21,7 +21,7 @@ from sphstudy.store import Store, write
 
 
 def grid(count: int, folder: str) -> list[str]:
-    """Overrides that span so many points: the product of what four h, fifty durations and densities make."""
+    """Overrides that span so many points: four h, fifty durations, and as many densities as it takes."""
     densities = max(1, count // 200)
     return [
         "scene=plate",

@@ -57,6 +57,7 @@ def compute(config: RunConfig, store: Store, execution: Execution) -> str:
             run = record.without_result("failed", message, _attributes(config))
         run.attrs["date_created"], run.attrs["threads"] = started, str(execution.threads)
         write(run, store.record_path(config))
+        store.index_record(config)
         outcome = record.STATUS[int(run["status"])]
         log.say(f"{outcome} {run.attrs['message']}")
     # Tried again, such a run goes on from where it had come.
@@ -83,6 +84,7 @@ def give_up(config: RunConfig, store: Store, outcome: str, why: str) -> None:
     run.attrs["date_created"] = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
     run.attrs["threads"] = ""
     write(run, store.record_path(config))
+    store.index_record(config)
     Log(store.log_path(config)).say(f"{outcome} {why}")
     store.claim_path(config).unlink(missing_ok=True)
 

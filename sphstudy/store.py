@@ -16,6 +16,7 @@ import os
 import sys
 import tempfile
 import threading
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Literal
 
@@ -113,6 +114,14 @@ class Store:
             return None
         self.index.put(path.name, stamp, summary)
         return summary
+
+    def index_record(self, config: RunConfig) -> None:
+        """Adds the record just written to the index, so that nobody has to open it for that."""
+        path = self.record_path(config)
+        with suppress(*UNREADABLE):
+            found = path.stat()
+            self.index.put(path.name, (found.st_mtime_ns, found.st_size), summarised(path))
+            self.index.flush()
 
     def stamp(self, config: RunConfig) -> int:
         """When the record was written (ns), 0 if there is none: changes whenever it is written again."""

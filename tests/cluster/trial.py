@@ -202,6 +202,8 @@ def overhead() -> None:
 
 def main(folder: str, grid: str) -> int:
     """Runs the trial; the exit status."""
+    # Ended politely, it takes its sweep along.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     trial = Trial(Path(folder), grid)
     os.chdir(folder)
     nodes = _said("sinfo", "--noheader", "--Node", "--format=%N %c CPU %T")

@@ -157,11 +157,14 @@ class Session:
             yield f"{line}: of Hydra's own keys, hydra/launcher and hydra.launcher.* can be set"
         elif override.is_sweep_override() and not override.is_discrete_sweep():
             yield f"{line}: write single values, or a range"
+        elif _spanned([override]) > MOST_POINTS:
+            yield f"{line}: more than {MOST_POINTS:,} values"
         elif "." not in key and (options := self._options(key)):
             many = override.is_sweep_override()
             for value in override.sweep_iterator() if many else [override.value()]:
                 if value not in options:
                     yield f"{key}={value}: there is {', '.join(options)}"
+                    break
 
     def _compose(self, overrides: list[str]) -> dict[str, Any]:
         """The plain dictionary for one point.

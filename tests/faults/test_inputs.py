@@ -47,6 +47,7 @@ EVIL = [
     ["n=range(1,1e9)", "-m"],
     ["h=range(1,2,1e-9)", "n=1,2,3", "-m"],
     ["h=interval(1,2)", "-m"],
+    ["scene=range(1,1e9)"],
     ["h=" + "[" * 500 + "]" * 500],
     ["known=1"],
     ["results=a\0b"],

@@ -1,5 +1,7 @@
 """Command line: separates sub-commands and flags from overrides, and says how it ended."""
 
+import errno
+import importlib
 import sys
 
 from sphstudy.config import ConfigurationError
@@ -24,6 +26,8 @@ sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids 
   sphstudy advise scene=plate error=0.1%           the cheapest setting for an error, from stored points
   sphstudy peers                                   other codes on the plate, set up and run side by side
   sphstudy status                                  what the results folder holds, run by run
+  sphstudy status mode1                            how far a study is, how fast, and what is left
+  sphstudy prune                                   stale records and their space; --yes removes them
   sphstudy list                                    scenes, methods, solvers, metrics, studies
   sphstudy describe scene plate                    every setting of one of them: value, unit, meaning
 
@@ -34,7 +38,10 @@ settings (key=value, before or after -m; several values with commas make a sweep
   results=FOLDER                                   where records go (default: results)
   checkpoint=60                                    seconds between two checkpoints of a long run
   threads=2                                        of one long run by steps: the same bits, sooner
-  hydra/launcher=joblib hydra.launcher.n_jobs=4    how many runs at once (default: one per core)
+  hydra.launcher.n_jobs=4                          how many runs at once (default: one per core)
+  hydra/launcher=slurm                             runs as jobs of a cluster (basic: one after the other)
+  time_limit=600 memory_limit=2                    of one run (s, GiB): it ends as timeout, as failed
+  retry=failed                                     runs that failed (timeout, all) are tried again
 
 flags
   -m, --multirun   run every combination of the values given
@@ -46,8 +53,8 @@ flags
 
 A run that is already in the results folder is not run again. Each run leaves one netCDF file in
 results/runs, a sweep one labelled dataset in results/sweeps, a study a page in results/reports.
-Exit status: 0 all points done (a diverged point is a result), 1 a point failed or a metric lies outside
-its accepted interval, 2 wrong input, 130 interrupted.
+Exit status: 0 all points done (a diverged point is a result), 1 a point failed or has no record, the disk
+takes no more, or a metric lies outside its accepted interval, 2 wrong input, 130 interrupted.
 """
 
 _FLAGS = {
@@ -57,8 +64,24 @@ _FLAGS = {
     "--force": "force",
     "--dry-run": "dry run",
 }
-_LOOKING = ("status", "list", "describe")
-_REVIEWING = ("report", "compare", "measure", "reference")
+_COMMANDS = {
+    "list": "inspection",
+    "describe": "inspection",
+    "report": "review",
+    "compare": "review",
+    "measure": "review",
+    "reference": "review",
+    "status": "status",
+    "prune": "prune",
+    "judge": "stability.command",
+    "extrapolate": "convergence",
+    "advise": "advice",
+    "peers": "peers.command",
+}
+"""Where `<command>_command` of each is, imported when it is asked for."""
+
+_DISK = (errno.EACCES, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.ENOSPC, errno.EROFS, errno.ESTALE)
+"""What a disk may answer to whoever writes to it."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -70,6 +93,11 @@ def main(arguments: list[str] | None = None) -> int:
         for complaint in error.complaints:
             print(f"sphstudy: {complaint}", file=sys.stderr)
         return 2
+    except OSError as error:
+        if error.errno not in _DISK:
+            raise
+        print(f"sphstudy: {error}; finished runs are kept", file=sys.stderr)
+        return 1
     except KeyboardInterrupt:
         print("sphstudy: interrupted; finished runs are kept", file=sys.stderr)
         return 130
@@ -85,30 +113,9 @@ def _command(arguments: list[str]) -> int:
         print(__version__)
         return 0
     command = arguments[0] if arguments else ""
-    if command in _LOOKING:
-        from sphstudy import inspection
-
-        return getattr(inspection, f"{command}_command")(arguments[1:])
-    if command in _REVIEWING:
-        from sphstudy import review
-
-        return getattr(review, f"{command}_command")(arguments[1:])
-    if command == "judge":
-        from sphstudy.stability.command import judge_command
-
-        return judge_command(arguments[1:])
-    if command == "extrapolate":
-        from sphstudy import convergence
-
-        return convergence.extrapolate_command(arguments[1:])
-    if command == "advise":
-        from sphstudy import advice
-
-        return advice.advise_command(arguments[1:])
-    if command == "peers":
-        from sphstudy.peers.command import peers_command
-
-        return peers_command(arguments[1:])
+    if command in _COMMANDS:
+        module = importlib.import_module(f"sphstudy.{_COMMANDS[command]}")
+        return getattr(module, f"{command}_command")(arguments[1:])
     return _run(arguments)
 
 

@@ -1,53 +1,22 @@
 """Many runs: what is there is kept, what is missing is run, longest first, all in one dataset."""
 
-import os
-import signal
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 
 import xarray as xr
-from hydra.core.utils import setup_globals
-from joblib.externals.loky import get_reusable_executor
-from rich.box import SIMPLE_HEAD
-from rich.table import Table
 
 from sphstudy import collect, review, study
 from sphstudy.blocks import all_points
 from sphstudy.composition import Point, Session, launcher_overrides, session
 from sphstudy.config import ConfigurationError
-from sphstudy.display import display, duration
-from sphstudy.prediction import prospect, rates
+from sphstudy.display import display
+from sphstudy.launching import Launching, workers_of
+from sphstudy.planning import kept, plan, prediction, print_plan
 from sphstudy.record import STATUS
-from sphstudy.runner import task
-from sphstudy.store import REUSED, Store
-from sphstudy.tables import console, print_tables
+from sphstudy.store import Store
+from sphstudy.tables import print_tables
 
-
-@dataclass(frozen=True)
-class Planned:
-    """A point, the status that the store has of it, and its predicted CPU time (s)."""
-
-    point: Point
-    status: str
-    seconds: float
-
-
-def plan(points: list[Point], store: Store) -> list[Planned]:
-    """What is known of the points before anything runs.
-
-    Raises ConfigurationError with what solvers have to complain about them.
-    """
-    prospects = [prospect(point.config) for point in points]
-    if complaints := [complaint for _, found in prospects for complaint in found]:
-        raise ConfigurationError(complaints)
-    known = rates(store)
-    return [
-        Planned(p, store.status(p.config), known.seconds(p.config, cost))
-        for p, (cost, _) in zip(points, prospects, strict=True)
-    ]
+_UNDONE = ("missing", "interrupted", "running")
 
 
 def run_command(arguments: list[str], many: bool, force: bool) -> int:
@@ -77,7 +46,8 @@ def study_command(arguments: list[str], force: bool, dry_run: bool) -> int:
             print(f"left out: {complaint}")
         store = Store(folder)
         if dry_run:
-            print_plan(plan(points, store), force)
+            workers = workers_of(hydra.launcher(launcher_overrides(overrides)), points)
+            print_plan(plan(points, store, force), store, workers)
             return 0
         called = review.report_name(name, settings)
         dataset, path = sweep(hydra, points, store, launcher_overrides(overrides), force, called)
@@ -86,26 +56,6 @@ def study_command(arguments: list[str], force: bool, dry_run: bool) -> int:
             print("a point diverged, which this study forbids")
             status = 1
         return max(status, review.review(hydra, name, settings, folder))
-
-
-def print_plan(planned: list[Planned], force: bool) -> None:
-    """A table of the points: whether they would run, why, and the CPU time predicted."""
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading in ("point", "would run", "because", "CPU (s)"):
-        table.add_column(heading, justify="right" if heading.startswith("CPU") else "left")
-    for p in sorted(planned, key=lambda p: -p.seconds):
-        runs = force or p.status not in REUSED
-        reason = "forced" if force and p.status in REUSED else f"stored: {p.status}"
-        if p.status == "missing":
-            reason = "not in the store"
-        table.add_row(p.point.config.label, "yes" if runs else "no", reason, f"{p.seconds:.1f}")
-    console().print(table)
-    print(_prediction([p for p in planned if force or p.status not in REUSED]))
-
-
-def _prediction(pending: list[Planned]) -> str:
-    seconds = sum(p.seconds for p in pending)
-    return f"{len(pending)} runs to do, about {duration(seconds)} of CPU time"
 
 
 def sweep(
@@ -120,50 +70,35 @@ def sweep(
 
     Returns the combined dataset and the file it was written to, called `name` if given.
     """
-    planned = plan(points, store)
     store.prepare()
-    pending = [p for p in planned if force or p.status not in REUSED]
+    planned = plan(points, store, force)
+    if said := kept(planned):
+        print(said, file=sys.stderr)
+    pending = [p for p in planned if p.runs]
     pending.sort(key=lambda p: p.seconds, reverse=True)
-    # A single run stays in this process: starting another takes longer than many a run.
-    if not launcher and len(pending) <= 1:
-        launcher = ["hydra/launcher=basic"]
-    threads = max((p.point.threads for p in pending), default=1)
-    if not launcher and threads > 1:
-        launcher = [f"hydra.launcher.n_jobs={max(1, (os.cpu_count() or 1) // threads)}"]
-    ready = hydra.launcher(task, launcher)
+    launching = Launching(store, pending, hydra.launcher(launcher))
     for p in pending if force else ():
         store.checkpoint_path(p.point.config).unlink(missing_ok=True)
     if pending:
-        print(_prediction(pending), file=sys.stderr)
-        jobs = [[*p.point.overrides, f"results={store.folder}"] for p in pending]
+        print(prediction(pending), file=sys.stderr)
         costs = [(p.point.config, p.seconds) for p in pending]
-        with _clean_interrupt(), display(costs, store, reused=len(planned) - len(pending)):
-            setup_globals()
-            ready.launch(jobs, initial_job_idx=0)
+        with display(costs, store, reused=len(planned) - len(pending)):
+            launching.run()
+    elsewhere = [p for p in planned if p.status == "running"]
+    if elsewhere:
+        launching.wait_for(elsewhere)
     return collect.collect([p.config for p in points], store, name)
 
 
 def _report(dataset: xr.Dataset, path: Path) -> int:
     print_tables(dataset)
     print(f"dataset: {path}")
-    failed = int((dataset["status"] == STATUS.index("failed")).sum())
-    if failed:
-        print(f"{failed} failed: the traceback is in the .log file beside the record")
-    return 1 if failed else 0
-
-
-@contextmanager
-def _clean_interrupt() -> Iterator[None]:
-    """On Ctrl-C, and on a polite kill, takes the workers along: no orphans, no waiting."""
-
-    def interrupt(number, frame):
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGTERM, interrupt)
-    try:
-        yield
-    except BaseException:
-        get_reusable_executor().shutdown(wait=False, kill_workers=True)
-        raise
-    finally:
-        signal.signal(signal.SIGTERM, before)
+    bad = {name: int((dataset["status"] == STATUS.index(name)).sum()) for name in ("failed", "timeout")}
+    there = dataset["configuration"] != ""
+    without = int((there & dataset["status"].isin([STATUS.index(name) for name in _UNDONE])).sum())
+    for name, count in bad.items():
+        if count:
+            print(f"{count} {name}: the .log beside each record says more; retry={name} tries again")
+    if without:
+        print(f"{without} points have no record: they are run when asked for again")
+    return 1 if without or any(bad.values()) else 0

@@ -109,7 +109,7 @@ def rows(
     for config in configs:
         summary = _current(config, store)
         row: dict[str, Any] = {
-            "status": "missing" if summary is None else summary.status,
+            "status": store.status(config) if summary is None else summary.status,
             "record": store.record_path(config).name,
             **{key: "" if summary is None else summary.attributes[key] for key in ORIGIN},
         }
@@ -117,6 +117,7 @@ def rows(
             row[name] = value
             attributes[name] = described
         found.append(row)
+    store.index.flush()
     return found, attributes
 
 

@@ -43,6 +43,11 @@ class CompileTimer:
         self._before = (_LISTENER.wall, _LISTENER.cpu)
         return self
 
+    @property
+    def so_far(self) -> float:
+        """Wall time of compilation since the block began (s)."""
+        return _LISTENER.wall - self._before[0]
+
     def __exit__(self, *exception) -> None:
         self.wall = _LISTENER.wall - self._before[0]
         self.cpu = _LISTENER.cpu - self._before[1]

@@ -1,6 +1,9 @@
 """From the command line to points: Hydra composes, wrong input is answered before anything runs."""
 
+import dataclasses
 import difflib
+import itertools
+import math
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -9,30 +12,50 @@ from functools import cache
 from typing import Any
 
 from hydra import initialize_config_dir
-from hydra._internal.callbacks import Callbacks
 from hydra._internal.core_plugins.basic_sweeper import BasicSweeper
 from hydra.core.global_hydra import GlobalHydra
 from hydra.core.override_parser.overrides_parser import OverridesParser
 from hydra.core.override_parser.types import Override
-from hydra.core.plugins import Plugins
 from hydra.errors import HydraException
-from hydra.plugins.launcher import Launcher
-from hydra.types import HydraContext, RunMode, TaskFunction
+from hydra.types import RunMode
 from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
-from sphstudy.config import ConfigurationError, RunConfig, configuration_folder, solver_module, validate
+from sphstudy.config import (
+    ConfigurationError,
+    RunConfig,
+    checked,
+    configuration_folder,
+    solver_module,
+    validate,
+)
+from sphstudy.execution import RETRIES, Execution
+
+LAUNCHERS = ("local", "basic", "slurm")
+"""Side by side on this machine, one after the other in this process, jobs of a SLURM cluster."""
+
+MOST_POINTS = 100_000
+"""Of one sweep: more are a slip of the pen, and take all memory."""
 
 _LAUNCHER = ("hydra/launcher", "hydra.launcher")
 
 
 @dataclass(frozen=True)
 class Point:
-    """One run of a sweep: the overrides that make it, the configuration they make, its threads."""
+    """One run of a sweep: the overrides that make it, the configuration they make, how it is run."""
 
     overrides: tuple[str, ...]
     config: RunConfig
-    threads: int = 1
+    execution: Execution
+    retry: str = "none"
+
+
+@dataclass(frozen=True)
+class Launcher:
+    """What gets runs done: one of LAUNCHERS, and its settings (conf/hydra/launcher)."""
+
+    name: str
+    settings: dict[str, Any]
 
 
 class _NotValid(ConfigurationError):
@@ -48,6 +71,8 @@ class Session:
         self._composed: dict[tuple[str, ...], dict[str, Any]] = {}
         # Hydra looks through its folders every time it is asked.
         self._options = cache(self._loader.get_group_options)
+        # The same few overrides make a large grid.
+        self._parsed = cache(self._parser.parse_override)
 
     def points(
         self, arguments: list[str], sweep: bool, skipped: list[str] | None = None
@@ -64,6 +89,8 @@ class Session:
                 raise ConfigurationError(
                     [f"{o.input_line}: several values make a sweep: add -m" for o in many]
                 )
+        if (spanned := _spanned(overrides)) > MOST_POINTS:
+            raise ConfigurationError([f"a sweep of {spanned:,} points or more: at most {MOST_POINTS:,}"])
         grid = BasicSweeper.split_arguments(overrides, None)[0]
         complaints: dict[str, None] = {}
         points: list[Point] = []
@@ -72,13 +99,13 @@ class Session:
             try:
                 composed = self._compose(choice)
                 results.add(str(composed.pop("results")))
-                if not (isinstance(seconds := composed.pop("checkpoint"), int | float) and seconds > 0):
-                    raise ConfigurationError([f"checkpoint={seconds}: should be a number greater than 0"])
-                threads = composed.pop("threads")
+                retry, execution = composed.pop("retry"), taken_execution(composed)
+                if retry not in RETRIES:
+                    raise ConfigurationError([f"retry={retry}: there is {', '.join(RETRIES)}"])
                 config = self._validated(composed)
-                if complaint := _too_many(threads, config):
+                if complaint := _too_many(execution.threads, config):
                     raise ConfigurationError([complaint])
-                points.append(Point(tuple(choice), config, threads))
+                points.append(Point(tuple(choice), config, execution, retry))
             except _NotValid as error:
                 if skipped is None:
                     complaints |= dict.fromkeys(error.complaints)
@@ -106,8 +133,8 @@ class Session:
         for argument in arguments:
             try:
                 override = self._parser.parse_override(argument)
-            except HydraException:
-                complaints.append(f"{argument}: not understood; write key=value")
+            except (HydraException, ValueError, RecursionError):
+                complaints.append(f"{_shortened(argument)}: not understood; write key=value")
                 continue
             complaints += self._complaint(override)
             if any(other.key_or_group == override.key_or_group for other in overrides):
@@ -124,53 +151,77 @@ class Session:
             yield f"{line}: write key=value; keys cannot be added, deleted or moved"
         elif "${" in line:
             yield f"{line}: interpolations are not taken from the command line"
+        elif key == "known":
+            yield f"{line}: set by the program itself"
         elif key.startswith("hydra"):
             yield f"{line}: of Hydra's own keys, hydra/launcher and hydra.launcher.* can be set"
+        elif override.is_sweep_override() and not override.is_discrete_sweep():
+            yield f"{line}: write single values, or a range"
+        elif _spanned([override]) > MOST_POINTS:
+            yield f"{line}: more than {MOST_POINTS:,} values"
         elif "." not in key and (options := self._options(key)):
             many = override.is_sweep_override()
             for value in override.sweep_iterator() if many else [override.value()]:
                 if value not in options:
                     yield f"{key}={value}: there is {', '.join(options)}"
+                    break
 
     def _compose(self, overrides: list[str]) -> dict[str, Any]:
         """The plain dictionary for one point.
 
         Configuration groups are composed once per choice; single values are set on a copy.
         """
-        parsed = self._parser.parse_overrides(overrides)
+        parsed = [self._parsed(override) for override in overrides]
         groups = [o for o in parsed if self._options(o.key_or_group)]
         chosen = tuple(str(o.input_line) for o in groups)
         if chosen not in self._composed:
             config = self._loader.load_configuration("config", list(chosen), RunMode.RUN)
             self._composed[chosen] = _without_hydra(config)
-        config = OmegaConf.create(self._composed[chosen])
+        # Plain dictionaries, of which only what changes is copied: there may be 20 000 of them.
+        values = dict(self._composed[chosen])
         complaints = []
         for override in parsed:
             if override in groups:
                 continue
-            key = override.key_or_group
-            if not _has(config, key):
-                complaints.append(_unknown(config, override))
-                continue
-            try:
-                OmegaConf.update(config, key, override.value(), merge=False)
-            except OmegaConfBaseException as error:
-                complaints.append(f"{override.input_line}: {str(error).splitlines()[0]}")
+            *path, last = override.key_or_group.split(".")
+            node: Any = values
+            for part in path:
+                if isinstance(inner := node.get(part), dict):
+                    node[part] = dict(inner)
+                node = node.get(part) if isinstance(inner, dict) else {}
+            if last in node:
+                node[last] = override.value()
+            else:
+                complaints.append(_unknown(values, override))
         if complaints:
             raise ConfigurationError(complaints)
-        return _plain(config)
+        return values
 
-    def launcher(self, task: TaskFunction, overrides: list[str]) -> Launcher:
-        """The launcher that the configuration and the overrides name, set up to run `task`."""
+    def launcher(self, overrides: list[str]) -> Launcher:
+        """The launcher that the configuration and the overrides name.
+
+        Raises ConfigurationError if it is not offered, or if a setting of it does not exist or is wrong.
+        """
+        for override in overrides:
+            key, _, value = override.partition("=")
+            if key == "hydra/launcher" and value not in LAUNCHERS:
+                raise ConfigurationError([f"{override}: there is {', '.join(LAUNCHERS)}"])
         try:
             config = self._loader.load_configuration("config", overrides, RunMode.MULTIRUN)
-            return Plugins.instance().instantiate_launcher(
-                hydra_context=HydraContext(config_loader=self._loader, callbacks=Callbacks()),
-                task_function=task,
-                config=config,
-            )
         except HydraException as error:
             raise ConfigurationError([f"{' '.join(overrides)}: {error}".splitlines()[0]]) from None
+        settings: Any = OmegaConf.to_container(config.hydra.launcher)
+        jobs = settings.get("n_jobs")
+        if jobs is not None and (type(jobs) is not int or (jobs < 1 and jobs != -1)):
+            raise ConfigurationError(
+                [f"hydra.launcher.n_jobs={jobs}: should be a whole number above 0, or -1: one per core"]
+            )
+        name = config.hydra.runtime.choices["hydra/launcher"]
+        if name == "slurm":
+            from sphstudy.cluster_settings import settings_of
+
+            settings_of(settings)
+        return Launcher(name, settings)
 
 
 def launcher_overrides(arguments: list[str]) -> list[str]:
@@ -186,40 +237,56 @@ def session() -> Iterator[Session]:
         yield Session()
 
 
-def _too_many(threads: Any, config: RunConfig) -> str | None:
+def taken_execution(composed: dict[str, Any]) -> Execution:
+    """How a run is to be carried out, taken out of what Hydra composed.
+
+    Raises ConfigurationError with every complaint.
+    """
+    complaints: list[str] = []
+    values = {field.name: composed.pop(field.name) for field in dataclasses.fields(Execution)}
+    found = checked(Execution, values, "", complaints)
+    if complaints:
+        raise ConfigurationError(complaints)
+    return found
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= 100 else f"{text[:100]}…"
+
+
+def _spanned(overrides: list[Override]) -> int:
+    """How many points overrides span, counted no further than too many."""
+    return math.prod(
+        sum(1 for _ in itertools.islice(o.sweep_iterator(), MOST_POINTS + 1))
+        for o in overrides
+        if o.is_sweep_override()
+    )
+
+
+def _too_many(threads: int, config: RunConfig) -> str | None:
     """What is wrong with so many threads for this run."""
     cores = os.cpu_count() or 1
-    if not isinstance(threads, int) or isinstance(threads, bool) or not 1 <= threads <= cores:
-        return f"threads={threads}: should be a whole number from 1 to {cores}, this machine's cores"
+    if threads > cores:
+        return f"threads={threads}: this machine has {cores} cores"
     if threads > 1 and not solver_module(config.solve.name).THREADS:
         return f"threads={threads}: solver {config.solve.name} runs on one thread"
     return None
 
 
 def _without_hydra(config: DictConfig) -> dict[str, Any]:
-    plain = {key: config[key] for key in config if key != "hydra"}
-    return _plain(OmegaConf.create(plain))
-
-
-def _plain(config: DictConfig) -> dict[str, Any]:
-    values: Any = OmegaConf.to_container(config, resolve=True)
+    """As plain dictionaries."""
+    own = OmegaConf.create({key: config[key] for key in config if key != "hydra"})
+    values: Any = OmegaConf.to_container(own, resolve=True)
     return values
 
 
-def _has(config: DictConfig, key: str) -> bool:
-    node: Any = config
-    for part in key.split("."):
-        if not OmegaConf.is_dict(node) or part not in node:
-            return False
-        node = node[part]
-    return True
-
-
-def _unknown(config: DictConfig, override: Override) -> str:
+def _unknown(values: dict[str, Any], override: Override) -> str:
     *path, last = override.key_or_group.split(".")
-    node = OmegaConf.select(config, ".".join(path)) if path else config
-    if not OmegaConf.is_dict(node):
-        node, path, last = config, [], override.key_or_group
+    node: Any = values
+    for part in path:
+        node = node.get(part) if isinstance(node, dict) else None
+    if not isinstance(node, dict):
+        node, path, last = values, [], override.key_or_group
     names = sorted(str(name) for name in node)
     close = difflib.get_close_matches(last, names, n=1, cutoff=0.5)
     hint = f"did you mean {'.'.join([*path, close[0]])}?" if close else ""

@@ -6,8 +6,9 @@ Scenes and methods are found by the `kind` in their YAML file: module `sphstudy.
 
 import dataclasses
 import importlib
-import json
 import os
+import re
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -48,10 +49,9 @@ class RunConfig:
 
     def as_dict(self) -> dict[str, Any]:
         """Nested plain dictionary: the resolved configuration as it is stored and hashed."""
-        return json.loads(TypeAdapter(RunConfig).dump_json(self, warnings=False)) | {
-            part: json.loads(TypeAdapter(type(value)).dump_json(value))
+        return adapter(RunConfig).dump_python(self, mode="json", warnings=False) | {
+            part: _adapter_of(getattr(self, part)).dump_python(getattr(self, part), mode="json")
             for part in ("scene", "method", "solve")
-            for value in (getattr(self, part),)
         }
 
     def flat(self) -> dict[str, Any]:
@@ -106,12 +106,26 @@ def headline(scene: str, solver: str) -> tuple[str, ...]:
 
 
 def _module(package: str, name: str) -> ModuleType:
-    if not name.isidentifier():
+    if not (isinstance(name, str) and name.isidentifier()):
         raise ConfigurationError([f"{package}: {name!r} is not the name of a module"])
     try:
-        return importlib.import_module(f"sphstudy.{package}.{name}")
+        found = importlib.import_module(f"sphstudy.{package}.{name}")
     except ModuleNotFoundError as error:
         raise ConfigurationError([f"{package}: there is no module {name!r} ({error})"]) from None
+    if not hasattr(found, "Parameters"):
+        raise ConfigurationError([f"{package}: module {name!r} is none of them"])
+    return found
+
+
+@cache
+def adapter(cls: Any) -> TypeAdapter:
+    """What checks values against a class of parameters, made once."""
+    return TypeAdapter(cls)
+
+
+def _adapter_of(value: Any) -> TypeAdapter:
+    cls: Any = type(value)
+    return adapter(cls)
 
 
 def validate(composed: dict[str, Any]) -> RunConfig:
@@ -123,15 +137,25 @@ def validate(composed: dict[str, Any]) -> RunConfig:
     composed = _rounded(composed)
     complaints: list[str] = []
     parts: dict[str, Any] = {}
-    modules = {
-        "scene": scene_module(composed["scene"]["kind"]),
-        "method": method_module(composed["method"]["kind"]),
-        "solve": solver_module(composed["solve"]["name"]),
-    }
+    try:
+        modules = {
+            "scene": scene_module(composed["scene"]["kind"]),
+            "method": method_module(composed["method"]["kind"]),
+            "solve": solver_module(composed["solve"]["name"]),
+        }
+        names = [composed[part]["name"] for part in modules]
+        rest = {key: composed[key] for key in ("h", "n", "seed", "record")}
+    except (KeyError, TypeError) as error:
+        raise ConfigurationError([f"not the configuration of a run ({error})"]) from None
+    # They are part of names of files.
+    complaints += [
+        f"name={name}: should be up to 40 letters, digits and _ + - only"
+        for name in names
+        if not (isinstance(name, str) and re.fullmatch(r"[\w+-]{1,40}", name))
+    ]
     for part, module in modules.items():
-        parts[part] = _checked(module.Parameters, composed[part], f"{part}.", complaints)
-    rest = {key: composed[key] for key in ("h", "n", "seed", "record")}
-    config = _checked(RunConfig, {**parts, **rest}, "", complaints)
+        parts[part] = checked(module.Parameters, composed[part], f"{part}.", complaints)
+    config = checked(RunConfig, {**parts, **rest}, "", complaints)
     if complaints:
         raise ConfigurationError(complaints)
     complaints += modules["scene"].check(config)
@@ -154,9 +178,10 @@ def _rounded(values: Any) -> Any:
     return float(f"{values:.12g}") if isinstance(values, float) else values
 
 
-def _checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
+def checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
+    """The values as an instance of a class of parameters; None, and complaints added, if they are not."""
     try:
-        return TypeAdapter(cls).validate_python(values)
+        return adapter(cls).validate_python(values)
     except ValidationError as error:
         for item in error.errors():
             key = prefix + ".".join(str(part) for part in item["loc"])

@@ -11,8 +11,8 @@ from rich.live import Live
 from rich.progress_bar import ProgressBar
 from rich.table import Table
 
+from sphstudy.claim import Holder, holder
 from sphstudy.config import RunConfig
-from sphstudy.progress import read_marker
 from sphstudy.store import Store
 
 _INTERVAL = 0.5
@@ -29,20 +29,20 @@ class _Follower:
 
     def __post_init__(self) -> None:
         self.record = self.store.record_path(self.config)
-        self.marker = self.store.marker_path(self.config)
+        self.claim = self.store.claim_path(self.config)
         self._before = self._stamp()
         self.finished = False
         self.fraction = 0.0
-        self.note: dict = {}
+        self.note: Holder | None = None
 
     def _stamp(self) -> int:
         return self.record.stat().st_mtime_ns if self.record.exists() else 0
 
     def look(self) -> bool:
         """Looks at the files; True if the run has just finished."""
-        self.note = read_marker(self.marker) or {}
-        if self.note.get("steps"):
-            self.fraction = self.note["step"] / self.note["steps"]
+        self.note = holder(self.claim)
+        if self.note and self.note.steps:
+            self.fraction = self.note.step / self.note.steps
         if not self.finished and self._stamp() != self._before:
             self.finished, self.fraction = True, 1.0
             return True
@@ -108,10 +108,10 @@ class _Board:
         for follower in self.followers:
             if follower.note and not follower.finished:
                 note = follower.note
-                bar = ProgressBar(total=max(note["steps"], 1), completed=note["step"], width=30)
+                bar = ProgressBar(total=max(note.steps, 1), completed=note.step, width=30)
                 state = (
-                    f"step {note['step']:,} of {note['steps']:,}"
-                    if note["steps"]
+                    f"step {note.step:,} of {note.steps:,}"
+                    if note.steps
                     else "starting (the first run compiles)"
                 )
                 rows.add_row(follower.config.label, bar, state)

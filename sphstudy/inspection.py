@@ -1,10 +1,8 @@
-"""The commands that only look: status, list, describe."""
+"""The commands that only look at what the program offers: list, describe."""
 
 import importlib
-from collections import Counter
 from typing import Literal, get_args, get_origin
 
-import netCDF4
 import yaml
 from pydantic.fields import FieldInfo
 from rich.box import SIMPLE_HEAD
@@ -19,9 +17,6 @@ from sphstudy.config import (
     scene_module,
     solver_module,
 )
-from sphstudy.progress import is_alive, read_marker
-from sphstudy.record import STATUS
-from sphstudy.store import Store
 
 _GROUPS = {"scene": scene_module, "method": method_module, "solve": solver_module}
 _NAME = 16
@@ -113,49 +108,6 @@ def _meaning(field: FieldInfo) -> tuple[str, str]:
 
 
 _SIGNS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
-
-
-def status_command(arguments: list[str]) -> int:
-    """Prints what the results folder holds: every run with its outcome, running ones with progress."""
-    folder = "results"
-    for argument in arguments:
-        key, _, value = argument.partition("=")
-        if key != "results" or not value:
-            raise ConfigurationError([f"{argument}: status takes results=FOLDER"])
-        folder = value
-    runs = Store(folder).runs
-    if not runs.is_dir():
-        raise ConfigurationError([f"results={folder}: there are no runs"])
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading in ("run", "outcome", "CPU (s)", "note"):
-        table.add_column(heading)
-    counts: Counter[str] = Counter()
-    for path in sorted(runs.glob("*.nc")):
-        outcome, seconds, message = _glance(path)
-        counts[outcome] += 1
-        table.add_row(path.stem, outcome, seconds, message)
-    for path in sorted(runs.glob("*.running.json")):
-        note = read_marker(path)
-        if note:
-            state = "running" if is_alive(note) else "interrupted"
-            counts[state] += 1
-            progress = f"step {note['step']:,} of {note['steps']:,}, process {note['process']}"
-            table.add_row(path.name.removesuffix(".running.json"), state, "", progress)
-    console = _console()
-    console.print(table)
-    print(", ".join(f"{count} {name}" for name, count in counts.items()) or "no runs")
-    return 0
-
-
-def _glance(path) -> tuple[str, str, str]:
-    """Outcome, CPU seconds and message of a record, without loading it."""
-    try:
-        with netCDF4.Dataset(path) as run:
-            seconds = run.variables.get("cpu_seconds")
-            cpu = "" if seconds is None else f"{float(seconds[...]):.1f}"
-            return STATUS[int(run["status"][...])], cpu, run.message
-    except (OSError, LookupError, AttributeError) as error:
-        return "unreadable", "", str(error).splitlines()[0]
 
 
 def _console() -> Console:

@@ -11,17 +11,16 @@ import json
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-import netCDF4
 import numpy as np
 from scipy.optimize import nnls
 
 from sphstudy import identity
 from sphstudy.config import RunConfig, method_module, scene_module, solver_module, validate
 from sphstudy.provenance import provenance
-from sphstudy.record import STATUS
-from sphstudy.store import FILES, Store
+from sphstudy.store import Store
 
 CHANGED_SETTING = 0.5
 """Difference between two runs of one more differing setting of method or solver, in powers of e."""
@@ -31,6 +30,9 @@ OTHER_SCENE = 2.0
 
 OTHER_ORIGIN = 4.0
 """Difference to a run of another version of the code, or on another processor."""
+
+ENOUGH = 500
+"""Runs that are learnt from, at most about twice so many: a forecast looks at each."""
 
 GUESS = 0.1
 """Weight of a guess by the solver's own measure of cost, that of the most similar run being 1."""
@@ -108,26 +110,29 @@ class Rates:
 
 
 def rates(store: Store) -> Rates:
-    """What the runs in the store that are done took."""
-    return Rates(tuple(_measurements(store)))
+    """What the runs in the store that are done took; of very many, an even selection."""
+    paths = [path for path in sorted(store.runs.glob("*.nc")) if not path.name.startswith(".")]
+    found = Rates(tuple(_measurements(store, paths[:: 1 + len(paths) // ENOUGH])))
+    store.index.flush()
+    return found
 
 
-def _measurements(store: Store) -> Iterable[Measurement]:
+def _measurements(store: Store, paths: list[Path]) -> Iterable[Measurement]:
     here = provenance()["processor"]
-    for path in sorted(store.runs.glob("*.nc")):
+    for path in paths:
+        summary = store.summary_at(path)
+        if summary is None or summary.status != "done":
+            continue
         try:
-            with FILES, netCDF4.Dataset(path) as run:
-                if STATUS[int(run["status"][...])] != "done":
-                    continue
-                config = validate(json.loads(run.configuration))
-                steps, particles, seconds = (
-                    float(run[name][...]) for name in ("steps", "particles", "cpu_seconds")
-                )
-                foreign = run.processor != here or (
-                    run.numerics_version != identity.numerics_version(config)
-                )
-        except (OSError, LookupError, AttributeError, ValueError):
-            continue  # not readable, or of another version: nothing to learn from
+            config = validate(json.loads(summary.attributes["configuration"]))
+            steps, particles, seconds = (
+                summary.numbers[name][0] for name in ("steps", "particles", "cpu_seconds")
+            )
+            foreign = summary.attributes["processor"] != here or (
+                summary.attributes["numerics_version"] != identity.numerics_version(config)
+            )
+        except (LookupError, ValueError):
+            continue  # of another version: nothing to learn from
         if steps > 0.0:
             own = work(config, steps, particles)
             yield Measurement(path.name, config.flat(), own, seconds, foreign)

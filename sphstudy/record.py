@@ -131,6 +131,11 @@ def with_outcome(
     return run
 
 
+def without_result(status: str, message: str, attributes: dict[str, str]) -> xr.Dataset:
+    """The record of a run that left nothing but how it ended."""
+    return with_outcome(xr.Dataset(), status, message, {}, attributes)
+
+
 def status_variable(dims: Any, values: Any) -> tuple:
     """Status as CF flags."""
     return _variable(

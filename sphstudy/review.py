@@ -15,6 +15,7 @@ from sphstudy.claims import claim
 from sphstudy.compare import MISSING, OUTSIDE, Comparison
 from sphstudy.composition import Session, session
 from sphstudy.config import ConfigurationError
+from sphstudy.execution import SETTINGS
 from sphstudy.record import STATUS
 from sphstudy.results import load
 from sphstudy.runner import measured
@@ -28,7 +29,7 @@ SHOWN = 20
 
 def report_name(name: str, overrides: list[str]) -> str:
     """Name of a study's dataset and report: that of the study, and the settings that differ from it."""
-    changed = [o for o in overrides if not o.startswith(("results=", "checkpoint=", "threads="))]
+    changed = [o for o in overrides if o.partition("=")[0] not in SETTINGS]
     return re.sub(r"[^\w.+=-]+", "_", "-".join([name, *changed]))
 
 

@@ -5,50 +5,106 @@ import resource
 import sys
 import time
 import traceback
+from dataclasses import replace
 from typing import Any
 
 import xarray as xr
-from omegaconf import DictConfig, OmegaConf
 
 from sphstudy import identity, record
 from sphstudy.checkpoint_file import CheckpointFile
+from sphstudy.claim import Claim
 from sphstudy.compile_timer import CompileTimer
 from sphstudy.config import RunConfig, method_module, scene_module, solver_module, validate
+from sphstudy.execution import Execution
+from sphstudy.guard import Log, memory_limited, warnings_to
 from sphstudy.metrics.metric import Metric, measure
-from sphstudy.progress import Marker
 from sphstudy.provenance import provenance
 from sphstudy.store import Store, write
 
+ELSEWHERE = "elsewhere"
+"""What `compute` says of a run that another process is computing."""
 
-def run_point(config: RunConfig, store: Store, checkpoint: float, threads: int = 1) -> xr.Dataset:
-    """Computes a point, from its last checkpoint if there is one, writes its record and returns it.
 
-    `checkpoint`: wall time between two checkpoints (s); `threads`: as many as the solver may take.
+class TimedOut(Exception):
+    """A run has taken longer than it was given."""
+
+
+def compute(config: RunConfig, store: Store, execution: Execution) -> str:
+    """Computes a point unless another process is about it, or has been since the record was looked at.
+
+    Goes on from the last checkpoint if there is one, and writes the record. Returns the outcome, or
+    ELSEWHERE. Whatever goes wrong becomes a record; only Ctrl-C passes through, and the OSError of a
+    disk that takes no claim or no record: the run can be done again from its last checkpoint.
     """
-    keeper = CheckpointFile(store.checkpoint_path(config), checkpoint)
-    with Marker(store.marker_path(config)) as marker:
+    claim = Claim(store.claim_path(config))
+    if not claim.take():
+        return ELSEWHERE
+    with claim:
+        if store.stamp(config) != execution.known and (there := store.summary(config)):
+            return there.status
+        keeper = CheckpointFile(store.checkpoint_path(config), execution.checkpoint)
         started = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
+        log = Log(store.log_path(config))
+        log.say(f"begun, numerics {identity.numerics_version(config)}, results {store.folder}")
         try:
-            run = _solved(config, marker, keeper, threads)
+            with warnings_to(log), memory_limited(execution.memory_limit):
+                run = _solved(config, claim, keeper, execution)
+        except TimedOut as error:
+            run = record.without_result("timeout", str(error), _attributes(config))
         except Exception as error:
-            store.log_path(config).write_text(traceback.format_exc())
+            log.say(traceback.format_exc())
             message = f"{type(error).__name__}: {error}".splitlines()[0]
-            run = record.with_outcome(xr.Dataset(), "failed", message, {}, _attributes(config))
-        run.attrs["date_created"], run.attrs["threads"] = started, str(threads)
+            run = record.without_result("failed", message, _attributes(config))
+        run.attrs["date_created"], run.attrs["threads"] = started, str(execution.threads)
         write(run, store.record_path(config))
-    # A failed run is run again: what it had computed until its last checkpoint is not lost.
-    if record.STATUS[int(run["status"])] != "failed":
+        store.index_record(config)
+        outcome = record.STATUS[int(run["status"])]
+        log.say(f"{outcome} {run.attrs['message']}")
+    # Tried again, such a run goes on from where it had come.
+    if outcome not in ("failed", "timeout"):
         keeper.remove()
+    return outcome
+
+
+def computed(config: RunConfig, store: Store, execution: Execution) -> xr.Dataset:
+    """The record of a run that is computed here and now, whatever is stored.
+
+    Raises RuntimeError if another process is computing it.
+    """
+    if compute(config, store, replace(execution, known=store.stamp(config))) == ELSEWHERE:
+        raise RuntimeError(f"{config.label} is being computed by another process")
+    run = store.read(config)
+    assert run is not None, "written just now"
     return run
 
 
-def _solved(config: RunConfig, marker: Marker, keeper: CheckpointFile, threads: int) -> xr.Dataset:
+def give_up(config: RunConfig, store: Store, outcome: str, why: str) -> None:
+    """Writes the record of a run whose process is gone, and takes its claim away."""
+    run = record.without_result(outcome, why, _attributes(config))
+    run.attrs["date_created"] = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
+    run.attrs["threads"] = ""
+    write(run, store.record_path(config))
+    store.index_record(config)
+    Log(store.log_path(config)).say(f"{outcome} {why}")
+    store.claim_path(config).unlink(missing_ok=True)
+
+
+def _solved(config: RunConfig, claim: Claim, keeper: CheckpointFile, execution: Execution) -> xr.Dataset:
     scene, method = scene_module(config.scene.kind), method_module(config.method.kind)
     solver = solver_module(config.solve.name)
     wall, cpu = time.perf_counter(), time.process_time()
     with CompileTimer() as compiling:
+
+        def progress(step: int, steps: int) -> None:
+            claim.update(step, steps)
+            spent = time.perf_counter() - wall - compiling.so_far
+            if execution.time_limit is not None and spent > execution.time_limit:
+                raise TimedOut(
+                    f"{spent:.0f} s, step {step} of {steps} (limit {execution.time_limit:g} s)"
+                )
+
         problem = scene.build(config)
-        solution = solver.run(problem, config, method, marker.update, keeper, threads)
+        solution = solver.run(problem, config, method, progress, keeper, execution.threads)
     cost = {
         "cpu_seconds": Metric(
             keeper.cpu_seconds + time.process_time() - cpu - compiling.cpu,
@@ -103,10 +159,7 @@ def _peak_memory() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
 
 
-def task(composed: DictConfig) -> str:
-    """Hydra's task: one point of a sweep, in whichever process the launcher chose."""
-    values: Any = OmegaConf.to_container(composed, resolve=True)
-    store, checkpoint = Store(values.pop("results")), float(values.pop("checkpoint"))
-    threads = values.pop("threads")
-    run = run_point(validate(values), store, checkpoint, threads)
-    return record.STATUS[int(run["status"])]
+def job(given: tuple[dict[str, Any], str, Execution]) -> str:
+    """`compute` for a worker: configuration as a plain dictionary, folder of results, execution."""
+    values, results, execution = given
+    return compute(validate(values), Store(results), execution)

@@ -1,17 +1,22 @@
 """The store: one netCDF file a run, named by what determines its numbers, written atomically.
 
 <results>/runs/<label>-<key>.nc             the record
-<results>/runs/<label>-<key>.running.json   while it is being computed
+<results>/runs/<label>-<key>.running.json   while it is being computed: who does, and how far it is
 <results>/runs/<label>-<key>.checkpoint     where a long run goes on after an interruption
-<results>/runs/<label>-<key>.log            traceback of a failed run
+<results>/runs/<label>-<key>.log            what became of it, try after try, with tracebacks and warnings
+<results>/runs/<label>-<key>.unreadable     a file of that name that was no record, set aside
+<results>/runs/.index.sqlite                summaries of records, kept so that 20 000 need not be opened
 """
 
+import errno
+import itertools
+import json
 import math
 import os
 import sys
 import tempfile
 import threading
-from dataclasses import dataclass
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Literal
 
@@ -19,23 +24,29 @@ import netCDF4
 import xarray as xr
 
 from sphstudy import identity
+from sphstudy.claim import is_alive
 from sphstudy.config import ConfigurationError, RunConfig
+from sphstudy.index import Index, Summary, plain
 from sphstudy.record import STATUS
+from sphstudy.seal import SEALED, check_seal, seal, taken_seal
 
 Format = Literal["NETCDF4", "NETCDF3_64BIT"]
 
 
-@dataclass(frozen=True)
-class Summary:
-    """A record without its fields: outcome, global attributes, and each metric and cost with its own."""
-
-    status: str
-    attributes: dict[str, Any]
-    numbers: dict[str, tuple[float, dict[str, Any]]]
-
-
 FILES = threading.RLock()
 """Held while a netCDF file is open: the library is not made for threads, and the display is one."""
+
+UNREADABLE = (OSError, LookupError, RuntimeError, ValueError, AttributeError, TypeError)
+"""What reading a file that is no record, or a damaged one, may raise."""
+
+_PASSING = (errno.EACCES, errno.EIO, errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.EPERM, errno.ESTALE)
+"""Errors of the system that say nothing about the file."""
+
+_NEEDED = ("title", "message", "key", "configuration", "numerics_version", "date_created")
+"""Attributes without which a file is no record."""
+
+_HEAD = 1_000_000
+"""Bytes that a file may take beside its numbers."""
 
 REUSED = ("done", "diverged")
 """Outcomes that are results: such a point is not computed again."""
@@ -47,6 +58,7 @@ class Store:
     def __init__(self, folder: str | Path):
         self.folder = Path(folder)
         self.runs = self.folder / "runs"
+        self.index = Index(self.runs / ".index.sqlite")
 
     def prepare(self) -> None:
         """Makes the folders. Raises ConfigurationError if they cannot be written."""
@@ -63,7 +75,7 @@ class Store:
         """Where the record of this run lies, or would."""
         return self.runs / f"{config.label}-{identity.key(config)}.nc"
 
-    def marker_path(self, config: RunConfig) -> Path:
+    def claim_path(self, config: RunConfig) -> Path:
         """The file that exists while the run is being computed."""
         return self.record_path(config).with_suffix(".running.json")
 
@@ -72,7 +84,7 @@ class Store:
         return self.record_path(config).with_suffix(".checkpoint")
 
     def log_path(self, config: RunConfig) -> Path:
-        """Where a failed run leaves its traceback."""
+        """What became of the run, try after try."""
         return self.record_path(config).with_suffix(".log")
 
     def read(self, config: RunConfig) -> xr.Dataset | None:
@@ -81,54 +93,130 @@ class Store:
 
     def summary(self, config: RunConfig) -> Summary | None:
         """The record's summary, or None; a file that cannot be read is set aside."""
-        path = self.record_path(config)
-        if not path.exists():
-            return None
+        return self.summary_at(self.record_path(config))
+
+    def summary_at(self, path: Path) -> Summary | None:
+        """The same of a record by its path. From the index, if the file is the one that was seen then."""
         try:
-            # Twenty times faster than through xarray, which matters for a report on a hundred runs.
-            with FILES, netCDF4.Dataset(path) as run:
-                status = STATUS[int(run["status"][...])]
-                attributes = {name: run.getncattr(name) for name in run.ncattrs()}
-                own = {
-                    name: {key: text for key, text in v.__dict__.items() if not key.startswith("_")}
-                    for name, v in run.variables.items()
-                    if v.ndim == 0
-                }
-                numbers = {
-                    name: (float(run[name][...].filled(math.nan)), described)
-                    for name, described in own.items()
-                    if described.get("group") in ("metric", "cost")
-                }
-        except (OSError, LookupError, RuntimeError) as error:
-            _set_aside(path, error)
+            found = path.stat()
+        except (FileNotFoundError, NotADirectoryError):
             return None
-        return Summary(status, attributes, numbers)
+        except OSError as error:
+            _refuse(path, error)
+            return None
+        stamp = (found.st_mtime_ns, found.st_size)
+        if (known := self.index.get(path.name, stamp)) is not None:
+            return known
+        try:
+            summary = summarised(path)
+        except UNREADABLE as error:
+            _refuse(path, error)
+            return None
+        self.index.put(path.name, stamp, summary)
+        return summary
+
+    def index_record(self, config: RunConfig) -> None:
+        """Adds the record just written to the index, so that nobody has to open it for that."""
+        path = self.record_path(config)
+        with suppress(*UNREADABLE):
+            found = path.stat()
+            self.index.put(path.name, (found.st_mtime_ns, found.st_size), summarised(path))
+            self.index.flush()
+
+    def stamp(self, config: RunConfig) -> int:
+        """When the record was written (ns), 0 if there is none: changes whenever it is written again."""
+        try:
+            return self.record_path(config).stat().st_mtime_ns
+        except OSError:
+            return 0
 
     def status(self, config: RunConfig) -> str:
-        """Outcome of a run, "missing" if there is no record."""
+        """Outcome of a run; without a record "running", "interrupted" or "missing"."""
+        claim = self.claim_path(config)
+        if is_alive(claim):
+            return "running"
         summary = self.summary(config)
-        return "missing" if summary is None else summary.status
+        if summary is not None:
+            return summary.status
+        lost = claim.exists() or self.checkpoint_path(config).exists()
+        return "interrupted" if lost else "missing"
+
+
+def summarised(path: Path) -> Summary:
+    """The summary of a record file; raises one of UNREADABLE if it is none."""
+    sealed = check_seal(path)
+    # Twenty times faster than through xarray, which matters for a report on a hundred runs.
+    with FILES, netCDF4.Dataset(path) as run:
+        attributes = {name: run.getncattr(name) for name in run.ncattrs()}
+        taken_seal(attributes, sealed)
+        status = _status(path, run, attributes)
+        own = {
+            name: {key: plain(text) for key, text in v.__dict__.items() if not key.startswith("_")}
+            for name, v in run.variables.items()
+            if v.ndim == 0
+        }
+        numbers = {
+            name: (float(run[name][...].filled(math.nan)), described)
+            for name, described in own.items()
+            if described.get("group") in ("metric", "cost")
+        }
+    return Summary(status, {name: plain(value) for name, value in attributes.items()}, numbers)
 
 
 def read(path: Path) -> xr.Dataset | None:
     """A record, loaded and closed, or None if there is none or it is unreadable (then set aside)."""
-    if not path.exists():
-        return None
     try:
-        with FILES, xr.open_dataset(path, engine="netcdf4") as run:
-            run = run.load()
-        if "status" not in run or "configuration" not in run.attrs:
-            raise ValueError("not a record of this program")
+        run = _loaded(path)
+        _status(path, run, run.attrs)
         return run
-    except (OSError, ValueError, RuntimeError) as error:
-        _set_aside(path, error)
+    except UNREADABLE as error:
+        _refuse(path, error)
         return None
 
 
-def _set_aside(path: Path, error: Exception) -> None:
-    aside = path.with_suffix(".unreadable")
-    os.replace(path, aside)
-    print(f"{path.name}: unreadable ({error}); set aside as {aside.name}", file=sys.stderr)
+def _loaded(path: Path) -> xr.Dataset:
+    sealed = check_seal(path)
+    with FILES, xr.open_dataset(path, engine="netcdf4") as dataset:
+        dataset = dataset.load()
+    taken_seal(dataset.attrs, sealed)
+    return dataset
+
+
+def _status(path: Path, run: Any, attributes: dict[str, Any]) -> str:
+    """The outcome that a file says. Raises ValueError or LookupError if it is no record of that name."""
+    if any(not isinstance(attributes.get(name), str) for name in _NEEDED):
+        raise ValueError("not a record of this program")
+    if attributes["key"] != path.stem.rpartition("-")[2]:
+        raise ValueError(f"the record of another run, {attributes['title']}-{attributes['key']}")
+    if not isinstance(json.loads(attributes["configuration"]), dict):
+        raise ValueError("without a configuration")
+    code = int(run["status"][...])
+    if not 0 < code < len(STATUS):
+        raise ValueError(f"outcome {code}")
+    return STATUS[code]
+
+
+def _refuse(path: Path, error: Exception) -> None:
+    """Sets aside what cannot be read, by name; nothing if it is gone by now.
+
+    Raises ConfigurationError if the system is to blame, not the file.
+    """
+    if isinstance(error, FileNotFoundError):
+        return
+    if isinstance(error, OSError) and error.errno in _PASSING:
+        raise ConfigurationError([f"{path}: cannot be read now ({error.strerror})"]) from None
+    told = " ".join(str(error).split())
+    marks = itertools.chain([""], (f".{k}" for k in itertools.count(2)))
+    names = (path.with_name(f"{path.stem}{mark}.unreadable") for mark in marks)
+    aside = next(name for name in names if not os.path.lexists(name))
+    try:
+        os.rename(path, aside)
+    except FileNotFoundError:
+        return
+    except OSError as failure:
+        print(f"{path.name}: unreadable ({told}), left there ({failure.strerror})", file=sys.stderr)
+        return
+    print(f"{path.name}: unreadable ({told}); set aside as {aside.name}", file=sys.stderr)
 
 
 def read_dataset(name: str, results: str | Path) -> xr.Dataset:
@@ -140,8 +228,7 @@ def read_dataset(name: str, results: str | Path) -> xr.Dataset:
     for path in candidates:
         if path.is_file():
             try:
-                with FILES, xr.open_dataset(path, engine="netcdf4") as dataset:
-                    return dataset.load()
+                return _loaded(path)
             except (OSError, ValueError, RuntimeError) as error:
                 raise ConfigurationError([f"{path}: cannot be read ({error})"]) from None
     raise ConfigurationError([f"{name}: there is neither {' nor '.join(map(str, candidates))}"])
@@ -150,7 +237,8 @@ def read_dataset(name: str, results: str | Path) -> xr.Dataset:
 def write(dataset: xr.Dataset, path: Path, format: Format = "NETCDF4") -> None:
     """Writes a dataset so that `path` holds either the old file or the whole new one.
 
-    format: netCDF 4, compressed, or netCDF 3, ten times smaller where there are many small variables.
+    format: netCDF 4, compressed and sealed, or netCDF 3, ten times smaller where there are many small
+    variables. Raises OSError if the disk does not take it.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     packed = {"zlib": True, "complevel": 2, "shuffle": True}
@@ -162,12 +250,30 @@ def write(dataset: xr.Dataset, path: Path, format: Format = "NETCDF4") -> None:
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=".writing-", suffix=".nc")
     os.close(handle)
     try:
+        if format == "NETCDF4":
+            dataset = dataset.assign_attrs({SEALED: "a digest follows the file's end"})
         with FILES:
-            dataset.to_netcdf(temporary, engine="netcdf4", format=format, encoding=encoding)
-        with open(temporary, "rb") as file:
-            os.fsync(file.fileno())
+            _to_netcdf(dataset, temporary, format=format, encoding=encoding)
+        if format == "NETCDF4":
+            seal(Path(temporary))
+        else:
+            with open(temporary, "rb") as file:
+                os.fsync(file.fileno())
         os.chmod(temporary, 0o644)
         os.replace(temporary, path)
     except BaseException:
         Path(temporary).unlink(missing_ok=True)
         raise
+
+
+def _to_netcdf(dataset: xr.Dataset, path: str, **how: Any) -> None:
+    """Raises OSError where HDF5 only says that it could not write, in several ways if a disk is full."""
+    try:
+        dataset.to_netcdf(path, engine="netcdf4", **how)
+    except (RuntimeError, OSError) as error:
+        room = os.statvfs(Path(path).parent)
+        free = room.f_bavail * room.f_frsize
+        if free < dataset.nbytes + _HEAD:
+            told = f"{os.strerror(errno.ENOSPC)} ({free / 1e6:.1f} MB are free)"
+            raise OSError(errno.ENOSPC, told, path) from None
+        raise OSError(errno.EIO, str(error), path) from None

@@ -100,9 +100,13 @@ def load(name: str) -> Study:
         raise ConfigurationError([f"study {name}: there is {', '.join(names())}"])
     path = folder() / f"{name}.yaml"
     try:
-        values = {**_OPTIONAL, **yaml.safe_load(path.read_text())}
-        return TypeAdapter(Study).validate_python(values)
-    except (yaml.YAMLError, TypeError) as error:
+        values = yaml.safe_load(path.read_text(encoding="utf-8"))
+        if not isinstance(values, dict) or not all(isinstance(key, str) for key in values):
+            raise TypeError("should be settings by name: title, blocks, …")
+        return TypeAdapter(Study).validate_python({**_OPTIONAL, **values})
+    except RecursionError:
+        raise ConfigurationError([f"{path.name}: nested too deeply"]) from None
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, TypeError) as error:
         raise ConfigurationError([f"{path.name}: {' '.join(str(error).split())}"]) from None
     except ValidationError as error:
         raise ConfigurationError(

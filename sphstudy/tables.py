@@ -11,9 +11,9 @@ from sphstudy.config import headline
 
 
 def console() -> Console:
-    """The terminal, or something wide enough for any table."""
-    there = Console()
-    return there if there.is_terminal else Console(width=400)
+    """The terminal, or something wide enough for any table. Text in brackets is text, not markup."""
+    there = Console(markup=False)
+    return there if there.is_terminal else Console(width=400, markup=False)
 
 
 def print_tables(dataset: xr.Dataset) -> None:

@@ -14,7 +14,9 @@ from sphstudy.store import Store, read, write
 
 @pytest.fixture
 def dataset():
-    return xr.Dataset({"status": 1, "x": ("i", np.arange(5.0))}, attrs={"configuration": "{}"})
+    attributes = dict.fromkeys(("title", "message", "numerics_version", "date_created"), "")
+    attributes |= {"configuration": "{}", "key": "a"}
+    return xr.Dataset({"status": 1, "x": ("i", np.arange(5.0))}, attrs=attributes)
 
 
 def test_what_is_written_is_read(tmp_path, dataset):
@@ -68,7 +70,7 @@ def test_threads_do_not_disturb_each_other(tmp_path, dataset):
     script = (
         "import sys, threading; from pathlib import Path;"
         "from sphstudy.store import Store, read, write;"
-        f"store, path = Store('.'), Path({str(tmp_path / 'a.nc')!r});"
+        f"store, path = Store('.'), Path({str(tmp_path / 'a.nc')!r}); store.index.get = lambda *_: None;"
         "store.record_path = lambda config: path;"
         "looks = threading.Thread(target=lambda: [store.summary(None) for _ in range(400)]);"
         "looks.start();"

@@ -9,17 +9,17 @@ import tempfile
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numba
 import numpy as np
-from hydra.core.utils import setup_globals
-from joblib.externals.loky import get_reusable_executor
 
 from sphstudy.composition import Session
-from sphstudy.runner import task
+from sphstudy.pool import Pool
+from sphstudy.runner import job
 from sphstudy.speed.bodies import Case, made
 from sphstudy.speed.interleave import Stepper, interleaved
+from sphstudy.store import Store
 
 CONTROL_SECONDS = 1.0
 """Of the control beside sweeps, on one core."""
@@ -110,26 +110,30 @@ def threads(hydra: Session, n: int, rounds: int, slice_seconds: float) -> tuple[
     return found, ""
 
 
+def _failed(job, outcome: str, why: str) -> None:
+    raise RuntimeError(f"a run was {outcome}: {why}")
+
+
 def processes(hydra: Session, settings: tuple[str, ...], jobs: int, rounds: int) -> list[Scaling]:
     """A sweep of so many equal runs in one process and in two, launched as every sweep is.
 
     The runs differ in their seed, which these scenes do not use, so that each leaves its own record.
     """
     with tempfile.TemporaryDirectory() as folder:
-        choices = [[*settings, f"seed={k}", f"results={folder}"] for k in range(jobs)]
+        seeds = f"seed={','.join(map(str, range(jobs)))}"
+        points, _ = hydra.points([*settings, seeds, f"results={folder}"], sweep=True)
+        store = Store(folder)
+        store.prepare()
 
         def sweep(count: int, first: int = jobs) -> None:
-            setup_globals()
-            chosen = [f"hydra.launcher.n_jobs={count}", f"results={folder}"]
-            hydra.launcher(task, chosen).launch(choices[:first], initial_job_idx=0)
+            known = [replace(p.execution, known=store.stamp(p.config)) for p in points[:first]]
+            given = [(p.config.as_dict(), folder, one) for p, one in zip(points, known, strict=False)]
+            Pool(count).run(job, given, None, _failed)
 
-        # Compiled once, then the workers are started: neither counts.
-        sweep(1, 1)
-        sweep(2)
+        sweep(1, 1)  # compiled once, which does not count
         control = Control(CONTROL_SECONDS)
         label = f"{jobs} runs, {' '.join(settings)}"
         both = compared(
             label, "processes", lambda: sweep(1), lambda: sweep(2), control, rounds, "two processes"
         )
-        get_reusable_executor().shutdown()
     return [both]

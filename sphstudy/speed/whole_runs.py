@@ -1,13 +1,13 @@
 """Whole runs as a user has them: CPU time without compilation, as their records tell."""
 
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from sphstudy.composition import Session
 from sphstudy.record import STATUS
-from sphstudy.runner import run_point
+from sphstudy.runner import computed
 from sphstudy.store import Store
 
 RUNS = {
@@ -51,7 +51,7 @@ def runs(hydra: Session, rounds: int) -> list[WholeRun]:
         store.prepare()
         for turn in range(rounds + 1):
             for k, point in enumerate(points):
-                record = run_point(point.config, store, checkpoint=1e6)
+                record = computed(point.config, store, replace(point.execution, checkpoint=1e6))
                 outcome[k] = STATUS[int(record["status"])]
                 seconds[k, turn] = record.get("cpu_seconds", np.nan)
     return [

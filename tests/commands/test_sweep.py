@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 import sphstudy
-from sphstudy import batch, metrics, runner
+from sphstudy import launching, metrics, runner
 from sphstudy.__main__ import main
 from sphstudy.record import STATUS
 
@@ -157,9 +157,12 @@ def test_a_failed_point_is_in_the_dataset_and_in_the_exit_status(tmp_path, monke
     shown = capsys.readouterr()
     assert "1 failed" in shown.out
     (log,) = (tmp_path / "results" / "runs").glob("*-n7-*.log")
-    assert "made for this test" in log.read_text()
+    assert "Traceback" in (said := log.read_text())
+    assert "made for this test" in said
     monkeypatch.setattr(runner, "measure", original)
-    assert main(arguments) == 0, "a failed point is run again"
+    assert main(arguments) == 1, "a failed point is neither a result nor tried again by itself"
+    assert "retry=failed runs them again" in capsys.readouterr().err
+    assert main([*arguments, "retry=failed"]) == 0
 
 
 def test_metrics_of_another_version_are_measured_again_without_running(swept, monkeypatch):
@@ -174,7 +177,7 @@ def test_metrics_of_another_version_are_measured_again_without_running(swept, mo
         return original(run, config, modules)
 
     monkeypatch.setattr(runner, "measure", measure)
-    monkeypatch.setattr(batch, "task", None)
+    monkeypatch.setattr(launching.Launching, "run", None)
     dataset = sphstudy.sweep(scene="plate", h=[1.5, 1.7], n=[5, 7], **{"scene.periods": 0.3})
     assert changed["frequency_error"] == 4
     assert np.isfinite(dataset["frequency_error"]).all()

@@ -69,6 +69,8 @@ def _record(config, status, message, metrics, cpu_seconds):
     attributes = {
         "title": config.label,
         "configuration": json.dumps(config.as_dict()),
+        "key": identity.key(config),
+        "numerics_version": identity.numerics_version(config),
         "git_state": f"{COMMIT} (dirty)",
         "sphstudy_version": "9.8.7",
         "python_version": "3.12",

@@ -7,11 +7,12 @@ compilation is left out, setting up the run is counted.
 import json
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 from sphstudy.composition import session
 from sphstudy.record import STATUS
-from sphstudy.runner import run_point
+from sphstudy.runner import computed
 from sphstudy.store import Store
 
 WARM = 0.01
@@ -47,7 +48,7 @@ def _solved(overrides: dict):
         points, _ = hydra.points([f"{key}={value}" for key, value in overrides.items()], sweep=False)
         store = Store(folder)
         store.prepare()
-        return run_point(points[0].config, store, checkpoint=1e9)
+        return computed(points[0].config, store, replace(points[0].execution, checkpoint=1e9))
 
 
 def _version(found, name: str) -> str:

@@ -1,0 +1,143 @@
+"""Who computes a run: a file beside its record that only one process holds, and how far it has come.
+
+<label>-<key>.running.json is made under a lock of the folder, so that of several sweeps over one store
+one gets the run. A claim whose process is gone is *lost*: whoever wants the run takes it over. On the
+same machine the process table tells; of other machines the file's age does, since whoever holds a claim
+touches it again every few seconds.
+"""
+
+import fcntl
+import json
+import os
+import platform
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+NOTE_INTERVAL = 0.5
+"""Seconds between two notes of the step reached."""
+
+HEARTBEAT = 10.0
+"""Seconds after which a holder touches its claim again, whatever its solver is busy with."""
+
+LOST_AFTER = 120.0
+"""Seconds without a sign of life, or into the future where a clock was set back, after which a claim of
+another machine is lost.
+"""
+
+_LOCK = ".claims"
+
+
+@dataclass(frozen=True)
+class Holder:
+    """What a claim says: step reached of so many, process and machine, and when it began (Unix time).
+
+    born: when the process started, in the kernel's ticks: numbers of processes are used again.
+    """
+
+    step: int
+    steps: int
+    process: int
+    host: str
+    started: float
+    born: str = ""
+
+
+class Claim:
+    """The right to compute one run, as a context: taken by `take`, given back at the end."""
+
+    def __init__(self, path: Path):
+        self.path = path
+        self._started, self._written = time.time(), 0.0
+        self._over = threading.Event()
+
+    def take(self) -> bool:
+        """Takes the run unless a living process has it; whether that worked. Raises OSError if the
+        claim cannot be written: without it, others would compute the run too.
+        """
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        with _locked(self.path.parent):
+            if is_alive(self.path):
+                return False
+            self._write(0, 0)
+        threading.Thread(target=self._beat, daemon=True).start()
+        return True
+
+    def __enter__(self) -> "Claim":
+        return self
+
+    def __exit__(self, *exception) -> None:
+        self._over.set()
+        self.path.unlink(missing_ok=True)
+
+    def update(self, step: int, steps: int) -> None:
+        """Notes the step reached, at most twice a second."""
+        if time.monotonic() - self._written >= NOTE_INTERVAL:
+            with suppress(OSError):
+                self._write(step, steps)
+
+    def _write(self, step: int, steps: int) -> None:
+        self._written = time.monotonic()
+        me = os.getpid()
+        note = Holder(step, steps, me, platform.node(), self._started, _born(me))
+        temporary = self.path.with_suffix(f".{me}.tmp")
+        try:
+            temporary.write_text(json.dumps(asdict(note)))
+            os.replace(temporary, self.path)
+        except OSError:
+            temporary.unlink(missing_ok=True)
+            raise
+
+    def _beat(self) -> None:
+        while not self._over.wait(HEARTBEAT):
+            with suppress(OSError):
+                os.utime(self.path)
+
+
+@contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    with open(folder / _LOCK, "a") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
+def holder(path: Path) -> Holder | None:
+    """What a claim says, or None if there is none or it cannot be read."""
+    try:
+        return Holder(**json.loads(path.read_text()))
+    except (OSError, ValueError, TypeError):
+        return None
+
+
+def is_alive(path: Path) -> bool:
+    """Whether there is a claim and its process still runs."""
+    note = holder(path)
+    if note is None:
+        return False
+    if note.host == platform.node():
+        return _born(note.process) == note.born != ""
+    try:
+        return abs(time.time() - path.stat().st_mtime) < LOST_AFTER
+    except OSError:
+        return False
+
+
+def _born(process: int) -> str:
+    """When a living process started, in ticks; "" if it is gone; "?" where there is no /proc."""
+    try:
+        fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+        return "" if fields[0] == "Z" else fields[19]
+    except OSError:
+        pass
+    if Path("/proc/self/stat").exists():
+        return ""
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return ""
+    except PermissionError:
+        pass
+    return "?"

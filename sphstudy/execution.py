@@ -1,0 +1,21 @@
+"""How a run is carried out, as far as that changes none of its numbers."""
+
+from sphstudy.parameters import count, number, parameters
+
+
+@parameters
+class Execution:
+    """Settings beside the configuration of a run; they are no part of its identity."""
+
+    checkpoint: float = number("wall time between two checkpoints of a long run", "s", gt=0)
+    threads: int = count("threads of one run", ge=1)
+    time_limit: float | None = number("wall time of a run, after which it ends as timeout", "s", gt=0)
+    memory_limit: float | None = number("memory of a run, beyond which it ends as failed", "GiB", gt=0)
+    known: int = count("stamp of the record that the sweep found, set by the program itself", ge=0)
+
+
+SETTINGS = ("results", "retry", "checkpoint", "threads", "time_limit", "memory_limit", "known")
+"""Top-level keys that are no part of what a run is."""
+
+RETRIES = ("none", "failed", "timeout", "all")
+"""What `retry` may be: which outcomes that are no results are tried again."""

@@ -1,0 +1,129 @@
+"""What in a folder of results serves nobody any more, why, and how much space it takes."""
+
+import json
+import shutil
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+
+from sphstudy import identity
+from sphstudy.claim import is_alive
+from sphstudy.config import ConfigurationError, validate
+from sphstudy.store import Store
+from sphstudy.tables import console
+
+RULES = """\
+A record is stale when no run would be looked for under its name again:
+- the code of its scene, method or solver has changed, or of anything that they import from the program
+  (docstrings and comments apart): its numerics version is not today's;
+- its configuration is not valid any more: a key was added, renamed or removed.
+A change of metrics does not make it stale: they are measured again from its fields. Beside records: files
+set aside as unreadable; claims, checkpoints and logs without a record whose process is gone; unfinished
+writes. Records that failed or timed out are kept: retry= says when they are tried again."""
+
+
+@dataclass(frozen=True)
+class Stale:
+    """A file that could go: why, and its size (bytes)."""
+
+    path: Path
+    reason: str
+    size: int
+
+
+def prune_command(arguments: list[str]) -> int:
+    """`sphstudy prune [results=FOLDER] [--yes]`: lists what is stale; removes it with --yes."""
+    folder, yes = "results", "--yes" in arguments
+    for argument in arguments:
+        if argument == "--yes":
+            continue
+        key, _, value = argument.partition("=")
+        if key != "results" or not value:
+            raise ConfigurationError([f"{argument}: prune takes results=FOLDER and --yes"])
+        folder = value
+    store = Store(folder)
+    if not store.runs.is_dir():
+        raise ConfigurationError([f"results={folder}: there are no runs"])
+    found = list(stale(store))
+    store.index.flush()
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    for heading in ("file", "because", "MB"):
+        table.add_column(heading, overflow="fold")
+    for one in found:
+        table.add_row(one.path.name, one.reason, f"{one.size / 1e6:.2f}")
+    if found:
+        console().print(table)
+    total = f"{len(found)} files, {sum(one.size for one in found) / 1e6:.1f} MB"
+    if yes:
+        for one in found:
+            _remove(one.path)
+        print(f"removed: {total}")
+    else:
+        print(f"stale: {total}" + (" (--yes removes them)" if found else ""))
+        print(RULES)
+    return 0
+
+
+def stale(store: Store) -> Iterator[Stale]:
+    """Every file in the folder of runs that could go."""
+    stems = set()
+    for path in sorted(store.runs.glob("*.nc")):
+        if path.name.startswith("."):
+            continue
+        reason = _why(store, path)
+        if reason:
+            yield Stale(path, reason, path.stat().st_size)
+        else:
+            stems.add(path.stem)
+    alive = {
+        path.name.removesuffix(".running.json")
+        for path in store.runs.glob("*.running.json")
+        if is_alive(path)
+    }
+    for suffix, reason in (
+        (".running.json", "a claim whose process is gone"),
+        (".checkpoint", "a checkpoint of a run that no record or process goes with"),
+        (".log", "a log of a run without a record"),
+    ):
+        for path in sorted(store.runs.glob(f"*{suffix}")):
+            stem = path.name.removesuffix(suffix)
+            kept = suffix == ".checkpoint" and not _orphan(store, stem)
+            if stem not in alive and stem not in stems and not kept:
+                yield Stale(path, reason, path.stat().st_size)
+    for path in sorted(store.runs.glob("*.unreadable")):
+        yield Stale(path, "no record: set aside when it was looked for", path.lstat().st_size)
+    if not alive:
+        for path in sorted(store.runs.glob(".writing-*")):
+            yield Stale(path, "a write that was not finished", path.stat().st_size)
+
+
+def _remove(path: Path) -> None:
+    """A file, or a folder that lay where a record should."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    else:
+        path.unlink(missing_ok=True)
+
+
+def _orphan(store: Store, stem: str) -> bool:
+    """Whether nothing says that the run of this name was interrupted, and may go on."""
+    return not (store.runs / f"{stem}.running.json").exists()
+
+
+def _why(store: Store, path: Path) -> str:
+    """Why a record is stale; "" if it is not."""
+    summary = store.summary_at(path)
+    if summary is None:
+        return ""  # set aside just now, and listed as such
+    try:
+        config = validate(json.loads(summary.attributes["configuration"]))
+    except ConfigurationError as error:
+        return f"not valid any more: {error.complaints[0]}"
+    except (KeyError, ValueError, TypeError):
+        return "not valid any more"
+    if summary.attributes["numerics_version"] != identity.numerics_version(config):
+        return "changed numerics: the code of scene, method or solver"
+    return "" if store.record_path(config) == path else "another name today"

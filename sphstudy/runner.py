@@ -9,7 +9,6 @@ from dataclasses import replace
 from typing import Any
 
 import xarray as xr
-from threadpoolctl import threadpool_limits
 
 from sphstudy import identity, record
 from sphstudy.checkpoint_file import CheckpointFile
@@ -136,9 +135,7 @@ def measured(run: xr.Dataset, config: RunConfig) -> xr.Dataset:
     metrics = {}
     own = hasattr(solver_module(config.solve.name), "HEADLINE")
     if record.STATUS[int(run["status"])] == "done" and not own:
-        # The last bits of what BLAS returns depend on its threads, which differ from worker to worker.
-        with threadpool_limits(1):
-            metrics = measure(run, config, scene_module(config.scene.kind).METRICS)
+        metrics = measure(run, config, scene_module(config.scene.kind).METRICS)
         remarks = [metric.remark for metric in metrics.values() if metric.remark]
         run.attrs["message"] = "; ".join(dict.fromkeys(remarks))
     return record.with_metrics(run, metrics, identity.metrics_version(config))

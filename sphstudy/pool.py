@@ -8,6 +8,7 @@ import os
 import queue
 import re
 import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from concurrent.futures import TimeoutError as Overdue
@@ -82,7 +83,9 @@ class Pool:
                 return
             if slot not in self._executors:
                 share = max(1, (os.cpu_count() or 1) // self.workers)
-                self._executors[slot] = ProcessPoolExecutor(1, env=thread_settings(share), timeout=None)
+                self._executors[slot] = ProcessPoolExecutor(
+                    1, None, env=thread_settings(share), initializer=_end_with, initargs=(os.getpid(),)
+                )
             future: Future = self._executors[slot].submit(task, job)
         try:
             future.result(deadline)
@@ -99,6 +102,17 @@ def thread_settings(count: int) -> dict[str, str]:
     """Environment of a process that may use so many threads."""
     names = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
     return dict.fromkeys(names, str(count))
+
+
+def _end_with(parent: int) -> None:
+    """Ends this worker once its parent is gone: loky's wait for ever for one that was killed."""
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(1.0)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def _why(error: Exception, deadline: float | None) -> tuple[str, str]:

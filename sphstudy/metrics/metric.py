@@ -4,6 +4,7 @@ import importlib
 from typing import NamedTuple
 
 import xarray as xr
+from threadpoolctl import threadpool_limits
 
 
 class Metric(NamedTuple):
@@ -19,7 +20,11 @@ def measure(run: xr.Dataset, config, modules: tuple[str, ...]) -> dict[str, Metr
     """All metrics of the named modules of `sphstudy.metrics`, for one record."""
     found: dict[str, Metric] = {}
     for name in modules:
-        found |= importlib.import_module(f"sphstudy.metrics.{name}").measure(run, config)
+        module = importlib.import_module(f"sphstudy.metrics.{name}")
+        # The last bits of what BLAS returns depend on its threads, which differ from worker to worker.
+        # Only what is loaded by now is limited.
+        with threadpool_limits(1):
+            found |= module.measure(run, config)
     return found
 
 

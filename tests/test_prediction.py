@@ -91,6 +91,8 @@ def test_only_runs_that_are_done_and_of_this_code_are_learnt_from(configs, tmp_p
         cost = {k: Metric(v, "1", k) for k, v in (("cpu_seconds", 2.0), ("steps", 10), ("particles", 99))}
         attributes = {
             "title": "made up",
+            "key": identity.key(config),
+            "date_created": "2026-01-01T00:00:00Z",
             "configuration": json.dumps(config.as_dict()),
             "numerics_version": version,
             "processor": provenance()["processor"],

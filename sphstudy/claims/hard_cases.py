@@ -27,6 +27,8 @@ NO_HOURGLASS = "hourglass 0"
 def _values(results: Results, block: str, metric: str, **settings: float | str) -> dict[float, float]:
     """A metric of a block's points with these settings (dots in keys as "__"), by h."""
     wanted = {key.replace("__", "."): value for key, value in settings.items()}
+    if results.table.empty:
+        raise Missing(f"{results.name}: no points")
     rows = results.select(wanted, block)
     found = {float(row["h"]): float(row[metric]) for _, row in rows.iterrows() if row["status"] == "done"}
     if not found or len(found) < len(rows):
@@ -155,7 +157,9 @@ def heun_lives_by_viscosity(results: Results) -> Finding:
         block: {float(row["h"]): str(row["status"]) for _, row in results.select({}, block).iterrows()}
         for block in ("no_viscosity", "viscosity")
     }
-    if any(status == "missing" for found in outcomes.values() for status in found.values()):
+    if not all(outcomes.values()) or any(
+        status == "missing" for found in outcomes.values() for status in found.values()
+    ):
         raise Missing(
             f"{results.name}: not all plates of the blocks no_viscosity and viscosity are stored"
         )

@@ -9,7 +9,15 @@ from scipy.sparse.linalg import eigsh
 
 from sphstudy.solve import verlet
 from sphstudy.solve.potential_system import highest_frequency, totals
-from sphstudy.solve.verlet import CHECK_INTERVAL, INVERTED, LONGEST_STRIDE, NOT_FINITE, SOUND, TOO_FAR
+from sphstudy.solve.verlet import (
+    CHECK_INTERVAL,
+    INVERTED,
+    LONGEST_STRIDE,
+    NOT_FINITE,
+    SOUND,
+    TOO_FAR,
+    TOO_FAST,
+)
 from sphstudy.sph import stiffness
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
@@ -220,6 +228,7 @@ def test_a_particle_turned_inside_out_is_noticed(driven, heun):
 @every_method
 def test_a_step_too_far_is_noticed(driven, heun):
     made, state = driven
+    made = made._replace(wave_speed=1e3)
     dt = 0.001
     limit = LONGEST_STRIDE * made.smoothing_length / dt
     for factor, expected in ((0.99, SOUND), (1.01, TOO_FAR)):
@@ -228,6 +237,15 @@ def test_a_step_too_far_is_noticed(driven, heun):
         assert verlet.soundness(made, state, readied(made, state), dt) == expected
     _, step, found = stepped(made, state, dt, [1000], heun)
     assert (step, found) == (0, TOO_FAR)
+
+
+def test_a_particle_faster_than_sound_is_noticed(driven):
+    made, state = driven
+    dt = 1e-9
+    for factor, expected in ((0.99, SOUND), (1.01, TOO_FAST)):
+        state[2:4] = 0.0
+        state[2, 30] = factor * made.wave_speed
+        assert verlet.soundness(made, state, readied(made, state), dt) == expected
 
 
 def eigenfrequency(made):

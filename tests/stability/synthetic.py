@@ -53,6 +53,7 @@ def made_up(config, status="done", metrics=None, message="", times=None, states=
     found = {name: Metric(value, "1", name) for name, value in (metrics or {}).items()}
     run = record.with_metrics(run, found, identity.metrics_version(config))
     attributes = {"title": config.label, "configuration": json.dumps(config.as_dict()), **ORIGIN}
+    attributes |= {"key": identity.key(config), "numerics_version": identity.numerics_version(config)}
     return record.with_outcome(run, status, message, {}, attributes | {"date_created": "2026-01-02"})
 
 

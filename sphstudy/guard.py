@@ -14,10 +14,8 @@ GIBIBYTE = 1024**3
 
 @contextlib.contextmanager
 def memory_limited(gibibytes: float | None) -> Iterator[None]:
-    """Lets the block allocate so much beyond what the process has; then a MemoryError ends it.
-
-    By the kernel's limit of private writable memory (RLIMIT_DATA): what libraries reserve and do not use
-    does not count on Linux since 4.7 unless it is writable.
+    """Lets the process have so much private writable memory while the block works; what asks for more gets
+    a MemoryError. By the kernel's limit RLIMIT_DATA (Linux since 4.7).
     """
     if gibibytes is None:
         yield

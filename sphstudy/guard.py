@@ -14,8 +14,8 @@ GIBIBYTE = 1024**3
 
 @contextlib.contextmanager
 def memory_limited(gibibytes: float | None) -> Iterator[None]:
-    """Lets the process have so much private writable memory while the block works; what asks for more gets
-    a MemoryError. By the kernel's limit RLIMIT_DATA (Linux since 4.7).
+    """Lets the process have so much private writable memory while the block works; whatever asks for more
+    gets a MemoryError. By the kernel's limit RLIMIT_DATA (Linux since 4.7).
     """
     if gibibytes is None:
         yield

@@ -36,10 +36,14 @@ def metrics_version(config: RunConfig) -> str:
     return _version(tuple(f"metrics.{name}" for name in names))
 
 
-@lru_cache(maxsize=100_000)
 def key(config: RunConfig) -> str:
     """Hash of everything that determines the numbers of a run, 16 hexadecimal digits."""
-    text = json.dumps([config.as_dict(), numerics_version(config)], sort_keys=True)
+    return _key(config, numerics_version(config))
+
+
+@lru_cache(maxsize=100_000)
+def _key(config: RunConfig, version: str) -> str:
+    text = json.dumps([config.as_dict(), version], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 

@@ -7,6 +7,7 @@ has a pool of one.
 import os
 import queue
 import re
+import signal
 import threading
 import time
 from collections.abc import Callable
@@ -67,6 +68,8 @@ class Pool:
             executor.shutdown(wait=False, kill_workers=True)
 
     def _serve(self, slot, task, waiting, deadline, lost) -> None:
+        # Workers inherit this: Ctrl-C in a terminal reaches them too, but the parent ends them.
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         while not self._stopped.is_set():
             try:
                 job = waiting.get_nowait()

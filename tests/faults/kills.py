@@ -51,7 +51,7 @@ def command(arguments: tuple[str, ...], folder: Path) -> subprocess.Popen:
 
 def finished(folder: Path) -> dict[str, str]:
     """Every record, with a digest of its bytes."""
-    return {path.name: _digest(path) for path in (folder / "runs").glob("*.nc") if path.name[0] != "."}
+    return {path.name: _digest(path) for path in (folder / "runs").glob("[!.]*.nc")}
 
 
 def _digest(path: Path) -> str:
@@ -97,8 +97,8 @@ class Reference:
 
 def contents(folder: Path) -> dict[str, str]:
     """The combined dataset and every record, each as a digest of what interruptions must not change."""
-    found = {path.name: read(path) for path in sorted((folder / "runs").glob("*.nc"))}
-    found |= {path.name: read_dataset(str(path), folder) for path in (folder / "sweeps").glob("*.nc")}
+    found = {path.name: read(path) for path in sorted((folder / "runs").glob("[!.]*.nc"))}
+    found |= {path.name: read_dataset(str(path), folder) for path in (folder / "sweeps").glob("[!.]*.nc")}
     return {name: _lasting(dataset) for name, dataset in found.items() if dataset is not None}
 
 

@@ -8,6 +8,7 @@ import dataclasses
 import importlib
 import os
 import re
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -62,6 +63,13 @@ class RunConfig:
     def label(self) -> str:
         """Short name for people: scene, method, h and n."""
         return f"{self.scene.name}-{self.method.name}-h{self.h:g}-n{self.n}"
+
+
+def timeless(config: RunConfig) -> Iterator[str]:
+    """Complaints of a solver that knows no time about times at which fields were to be kept."""
+    for key, asked in (("times", list(config.record.times)), ("frames", config.record.frames)):
+        if asked:
+            yield f"record.{key}={asked}: solve={config.solve.name} knows no time"
 
 
 def flattened(nested: dict[str, Any]) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,14 +16,17 @@ from sphstudy.config import ConfigurationError, validate
 from sphstudy.store import Store
 from sphstudy.tables import console
 
+FORGOTTEN = 30 * 24 * 3600.0
+"""Age of a checkpoint (s) from which on nobody is expected to go on from it."""
+
 RULES = """\
 A record is stale when no run would be looked for under its name again:
 - the code of its scene, method or solver has changed, or of anything that they import from the program
   (docstrings and comments apart): its numerics version is not today's;
 - its configuration is not valid any more: a key was added, renamed or removed.
 A change of metrics does not make it stale: they are measured again from its fields. Beside records: files
-set aside as unreadable; claims, checkpoints and logs without a record whose process is gone; unfinished
-writes. Records that failed or timed out are kept: retry= says when they are tried again."""
+set aside as unreadable, claims whose process is gone, logs without a record, unfinished writes, and
+checkpoints a month old. Records that failed or timed out are kept: retry= says when they are tried again."""
 
 
 @dataclass(frozen=True)
@@ -85,14 +89,17 @@ def stale(store: Store) -> Iterator[Stale]:
     }
     for suffix, reason in (
         (".running.json", "a claim whose process is gone"),
-        (".checkpoint", "a checkpoint of a run that no record or process goes with"),
         (".log", "a log of a run without a record"),
     ):
         for path in sorted(store.runs.glob(f"*{suffix}")):
             stem = path.name.removesuffix(suffix)
-            kept = suffix == ".checkpoint" and not _orphan(store, stem)
-            if stem not in alive and stem not in stems and not kept:
+            if stem not in alive and stem not in stems:
                 yield Stale(path, reason, path.stat().st_size)
+    # Whoever was interrupted, failed or timed out goes on from it: only age says that nobody will.
+    for path in sorted(store.runs.glob("*.checkpoint")):
+        found = path.stat()
+        if path.stem not in alive and time.time() - found.st_mtime > FORGOTTEN:
+            yield Stale(path, "a checkpoint that nobody went on from for a month", found.st_size)
     for path in sorted(store.runs.glob("*.unreadable")):
         yield Stale(path, "no record: set aside when it was looked for", path.lstat().st_size)
     if not alive:
@@ -106,11 +113,6 @@ def _remove(path: Path) -> None:
         shutil.rmtree(path)
     else:
         path.unlink(missing_ok=True)
-
-
-def _orphan(store: Store, stem: str) -> bool:
-    """Whether nothing says that the run of this name was interrupted, and may go on."""
-    return not (store.runs / f"{stem}.running.json").exists()
 
 
 def _why(store: Store, path: Path) -> str:

@@ -1,13 +1,16 @@
 """What is stale is listed with its reason, and removed only if asked; what serves stays."""
 
 import json
+import os
 import shutil
+import time
 
 import pytest
 
 from sphstudy import identity, runner
 from sphstudy.__main__ import main
 from sphstudy.claim import Claim
+from sphstudy.prune import FORGOTTEN
 from sphstudy.runner import compute, give_up
 from sphstudy.store import Store, write
 from tests.made_up import Solver, points, solved
@@ -51,8 +54,11 @@ def folder(tmp_path, monkeypatch):
 
     store.log_path(lost.config).write_text("a log")
     store.checkpoint_path(lost.config).touch()
+    os.utime(store.checkpoint_path(lost.config), (0.0, time.time() - FORGOTTEN - 60.0))
+    store.checkpoint_path(failed.config).touch()
+    expected[store.checkpoint_path(failed.config).name] = None
     expected[store.log_path(lost.config).name] = "a log of a run without a record"
-    expected[store.checkpoint_path(lost.config).name] = "a checkpoint of a run"
+    expected[store.checkpoint_path(lost.config).name] = "a checkpoint that nobody"
 
     (store.runs / "x-0.nc").write_text("no record")
     expected["x-0.unreadable"] = "set aside"

@@ -95,7 +95,7 @@ def held_bar(results: Results) -> Finding:
     "H3",
     "A stress rate without spin terms cannot rotate: the thesis's method loses a spinning square; "
     "Jaumann's rate saves it.",
-    "section 2.2 leaves the spin out; Gray, Monaghan & Swift 2001 have it",
+    "the stress rate (2.4) has no spin terms; that of Gray, Monaghan & Swift 2001 has",
     reproduced="angular momentum is lost without it at every h̃, kept with it, and by total Lagrangian",
     partly="it is lost without, kept by total Lagrangian, but lost with Jaumann's rate too",
     otherwise="it is not lost without it",

@@ -12,6 +12,7 @@ import numpy as np
 from sphstudy.exact import williams
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Body, Problem, Stage, lattice, lattice_sites
+from sphstudy.scenes.solid import SolidParameters
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
 
@@ -33,15 +34,10 @@ HEADLINE = (
 
 
 @parameters
-class Parameters:
+class Parameters(SolidParameters):
     """A square of `n` by `n` particles (even: the tip lies between columns)."""
 
-    name: str = described("name of the scene")
-    kind: str = described("module that builds it")
     mode: Literal[1, 2] = described("1: opening, 2: sliding")
-    E: float = number("Young's modulus", "Pa", gt=0)
-    nu: float = number("Poisson's ratio", gt=-1, lt=0.5)
-    rho: float = number("density", "kg/m3", gt=0)
     L: float = number("side of the square", "m", gt=0)
     K: float = number("stress intensity factor of the prescribed field", "Pa m0.5", gt=0)
     plane: Literal["stress"] = described("plane stress: the exact field is written for it")

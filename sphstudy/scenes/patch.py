@@ -10,6 +10,7 @@ import numpy as np
 
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Body, Problem, lattice, lattice_sites
+from sphstudy.scenes.solid import SolidParameters
 from sphstudy.scenes.tension import held, noise
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
@@ -25,14 +26,9 @@ HEADLINE = (
 
 
 @parameters
-class Parameters:
+class Parameters(SolidParameters):
     """A square of `n` by `n` particles about the origin, and the affine displacement of its frame."""
 
-    name: str = described("name of the scene")
-    kind: str = described("module that builds it")
-    E: float = number("Young's modulus", "Pa", gt=0)
-    nu: float = number("Poisson's ratio", gt=-1, lt=0.5)
-    rho: float = number("density", "kg/m3", gt=0)
     L: float = number("side of the square", "m", gt=0)
     plane: Literal["strain", "stress"] = described("plane strain or plane stress")
     perturbation: float = number("largest displacement from the lattice, in spacings", ge=0, le=0.4)

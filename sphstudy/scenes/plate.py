@@ -8,6 +8,7 @@ import numpy as np
 from sphstudy.exact import beam
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Body, Problem, Stage, lattice, lattice_sites
+from sphstudy.scenes.solid import SolidParameters
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
 
@@ -24,14 +25,9 @@ HEADLINE = (
 
 
 @parameters
-class SlabParameters:
+class SlabParameters(SolidParameters):
     """The elastic body: a plate of length L beyond its clamp, `n` rows high."""
 
-    name: str = described("name of the scene")
-    kind: str = described("module that builds it")
-    E: float = number("Young's modulus", "Pa", gt=0)
-    nu: float = number("Poisson's ratio", gt=-1, lt=0.5)
-    rho: float = number("density", "kg/m3", gt=0)
     L: float = number("length", "m", gt=0)
     slenderness: int = count("length over height; columns per row", ge=2)
     plane: Literal["strain", "stress"] = described("plane strain or plane stress")

@@ -10,6 +10,7 @@ import numpy as np
 
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Body, Problem, Stage
+from sphstudy.scenes.solid import SolidParameters
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
 
@@ -25,14 +26,9 @@ HEADLINE = (
 
 
 @parameters
-class Parameters:
+class Parameters(SolidParameters):
     """Two rings of `n` particles across their wall, cut from one square lattice."""
 
-    name: str = described("name of the scene")
-    kind: str = described("module that builds it")
-    E: float = number("Young's modulus", "Pa", gt=0)
-    nu: float = number("Poisson's ratio", gt=-1, lt=0.5)
-    rho: float = number("density", "kg/m3", gt=0)
     plane: Literal["strain"] = described("plane strain")
     inner: float = number("inner radius", "m", gt=0)
     outer: float = number("outer radius", "m", gt=0)

@@ -14,6 +14,7 @@ import numpy as np
 from sphstudy.exact.waves import longitudinal_speed
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Body, Problem, Stage, lattice, lattice_sites
+from sphstudy.scenes.solid import SolidParameters
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
 
@@ -30,15 +31,10 @@ HEADLINE = (
 
 
 @parameters
-class Parameters:
+class Parameters(SolidParameters):
     """A bar of `n` rows and slenderness·n columns, and what disturbs it."""
 
-    name: str = described("name of the scene")
-    kind: str = described("module that builds it")
     shock: Literal["wave", "particle"] = described("a step load, or a particle out of place")
-    E: float = number("Young's modulus", "Pa", gt=0)
-    nu: float = number("Poisson's ratio", gt=-1, lt=0.5)
-    rho: float = number("density", "kg/m3", gt=0)
     L: float = number("length", "m", gt=0)
     slenderness: int = count("length over height; columns per row", ge=1)
     plane: Literal["strain", "stress"] = described("plane strain or plane stress")

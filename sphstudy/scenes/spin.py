@@ -11,6 +11,7 @@ import numpy as np
 
 from sphstudy.parameters import described, number, parameters
 from sphstudy.scenes.problem import Body, Problem, Stage, lattice, lattice_sites
+from sphstudy.scenes.solid import SolidParameters
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
 
@@ -26,14 +27,9 @@ HEADLINE = (
 
 
 @parameters
-class SquareParameters:
+class SquareParameters(SolidParameters):
     """A square of `n` by `n` particles."""
 
-    name: str = described("name of the scene")
-    kind: str = described("module that builds it")
-    E: float = number("Young's modulus", "Pa", gt=0)
-    nu: float = number("Poisson's ratio", gt=-1, lt=0.5)
-    rho: float = number("density", "kg/m3", gt=0)
     L: float = number("side of the square", "m", gt=0)
     plane: Literal["strain", "stress"] = described("plane strain or plane stress")
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Body, Problem, Stage, lattice, lattice_sites
+from sphstudy.scenes.solid import SolidParameters
 from sphstudy.sph.constraints import Constraints
 from sphstudy.sph.material import Material
 
@@ -31,14 +32,9 @@ HEADLINE = (*STRETCHED, "stress_share_section")
 
 
 @parameters
-class StretchedParameters:
+class StretchedParameters(SolidParameters):
     """A body of noisy lattice that is brought to a homogeneous state of stress and held there."""
 
-    name: str = described("name of the scene")
-    kind: str = described("module that builds it")
-    E: float = number("Young's modulus", "Pa", gt=0)
-    nu: float = number("Poisson's ratio", gt=-1, lt=0.5)
-    rho: float = number("density", "kg/m3", gt=0)
     plane: Literal["strain"] = described("plane strain: the exact states are written for it")
     strain: float = number("prescribed elongation over length; not zero", gt=-0.5, le=1)
     noise: float = number("largest displacement from the lattice, in spacings", ge=0, le=0.05)

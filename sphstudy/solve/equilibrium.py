@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from sphstudy.config import timeless
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Problem, Stage
 from sphstudy.solve.checkpoint import Keeper
@@ -46,8 +47,7 @@ def check(problem: Problem, config, method) -> Iterator[str]:
                 f"solve=equilibrium: stage {stage.name} of scene {config.scene.name} moves freely; "
                 "take modes or explicit"
             )
-    if config.record.times:
-        yield f"record.times={list(config.record.times)}: solve=equilibrium knows no time"
+    yield from timeless(config)
 
 
 def predicted_steps(problem: Problem, config, method) -> int:

@@ -89,18 +89,23 @@ def integrator(config, method) -> str:
     return method.INTEGRATORS[0] if asked == "auto" else asked
 
 
-def check(problem: Problem, config, method) -> Iterator[str]:
-    """Complaints: what the method does not offer, and times asked for that the run does not reach."""
+def not_offered(config, method) -> Iterator[str]:
+    """Complaints about an integrator or a smearing of velocities that the method does not have."""
     solve, name = config.solve, config.method.name
     if integrator(config, method) not in method.INTEGRATORS:
         offered = ", ".join(method.INTEGRATORS)
         yield f"solve.integrator={solve.integrator}: method {name} takes {offered}"
-        return
-    if solve.time_step == "frequency" and not hasattr(method, "highest_frequency"):
-        yield f"solve.time_step=frequency: method {name} has no stiffness to find ω_max of; take courant"
-        return
     if solve.smoothing and not hasattr(config.method, "xsph"):
         yield f"solve.smoothing={solve.smoothing:g}: method {name} has no smoothed velocity; take 0"
+
+
+def check(problem: Problem, config, method) -> Iterator[str]:
+    """Complaints: what the method does not offer, and times asked for that the run does not reach."""
+    yield from not_offered(config, method)
+    if config.solve.time_step == "frequency" and not hasattr(method, "highest_frequency"):
+        name = config.method.name
+        yield f"solve.time_step=frequency: method {name} has no stiffness to find ω_max of; take courant"
+        return
     dt = time_step(problem, config, method)
     end = dt * predicted_steps(problem, config, method)
     for wanted in config.record.times:

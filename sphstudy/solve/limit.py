@@ -7,13 +7,25 @@ from typing import Literal
 
 import numpy as np
 
+from sphstudy.config import timeless
 from sphstudy.parameters import count, described, number, parameters
 from sphstudy.scenes.problem import Problem
 from sphstudy.solve import growth
 from sphstudy.solve.checkpoint import Keeper
-from sphstudy.solve.explicit import integrator
+from sphstudy.solve.explicit import cost, integrator, not_offered
 from sphstudy.solve.growth import Bracket, Trial
 from sphstudy.solve.solution import Solution, Variable
+
+__all__ = [
+    "HEADLINE",
+    "SECONDS_PER_COST",
+    "THREADS",
+    "Parameters",
+    "check",
+    "cost",
+    "predicted_steps",
+    "run",
+]
 
 SECONDS_PER_COST = 1e-7
 """CPU time of a step per pair, looks at the energy included, on one Zen 4 core, where no run tells."""
@@ -50,19 +62,14 @@ class Parameters:
 
 def check(problem: Problem, config, method) -> Iterator[str]:
     """Complaints: what the method does not offer, bounds in the wrong order, times asked for."""
-    solve, name = config.solve, config.method.name
-    if integrator(config, method) not in method.INTEGRATORS:
-        offered = ", ".join(method.INTEGRATORS)
-        yield f"solve.integrator={solve.integrator}: method {name} takes {offered}"
+    solve = config.solve
+    yield from not_offered(config, method)
+    yield from timeless(config)
     if not solve.lowest_courant * (1.0 + solve.tolerance) < solve.highest_courant:
         yield (
             f"solve.lowest_courant={solve.lowest_courant:g}: should be below "
             f"solve.highest_courant={solve.highest_courant:g}"
         )
-    if solve.smoothing and not hasattr(config.method, "xsph"):
-        yield f"solve.smoothing={solve.smoothing:g}: method {name} has no smoothed velocity; take 0"
-    if config.record.times:
-        yield f"record.times={list(config.record.times)}: solve=limit keeps no fields"
 
 
 def predicted_steps(problem: Problem, config, method) -> int:
@@ -73,11 +80,6 @@ def predicted_steps(problem: Problem, config, method) -> int:
 def _halvings(solve) -> int:
     ratio = solve.highest_courant / solve.lowest_courant
     return max(0, math.ceil(math.log2(math.log(ratio) / math.log1p(solve.tolerance))))
-
-
-def cost(particles: int, neighbours: float, steps: float) -> float:
-    """What a run's CPU time goes with: evaluations of pairs."""
-    return steps * particles * neighbours / 2.0
 
 
 def run(

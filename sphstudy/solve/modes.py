@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import scipy.sparse.linalg
 
+from sphstudy.config import timeless
 from sphstudy.parameters import count, described, parameters
 from sphstudy.scenes.problem import Problem
 from sphstudy.solve.checkpoint import Keeper
@@ -48,8 +49,7 @@ def check(problem: Problem, config, method) -> Iterator[str]:
     most = 2 * problem.body.x.size - held - 2
     if config.solve.count > most:
         yield f"solve.count={config.solve.count}: {config.label} has {most} that can be found"
-    if config.record.times:
-        yield f"record.times={list(config.record.times)}: solve=modes knows no time"
+    yield from timeless(config)
 
 
 def predicted_steps(problem: Problem, config, method) -> int:

@@ -40,7 +40,9 @@ def test_sigterm_ends_the_run_and_says_which_it_was(tmp_path):
 
 
 def test_the_warning_of_the_end_of_time_is_no_end(tmp_path):
-    work(Batch(tmp_path, 0, lambda job: os.kill(os.getpid(), signal.SIGUSR2), [0]))
+    batch = Batch(tmp_path, 0, lambda job: os.kill(os.getpid(), signal.SIGUSR2), [0, 1])
+    work(batch)
+    assert read_note(batch.note_path) == Note(at=1)
 
 
 def test_what_runs_raise_is_noted(tmp_path):

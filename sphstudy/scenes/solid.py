@@ -1,0 +1,14 @@
+"""What every scene says of itself and of its material."""
+
+from sphstudy.parameters import described, number, parameters
+
+
+@parameters
+class SolidParameters:
+    """Name, builder, and an isotropic elastic solid."""
+
+    name: str = described("name of the scene")
+    kind: str = described("module that builds it")
+    E: float = number("Young's modulus", "Pa", gt=0)
+    nu: float = number("Poisson's ratio", gt=-1, lt=0.5)
+    rho: float = number("density", "kg/m3", gt=0)

@@ -26,7 +26,8 @@ A record is stale when no run would be looked for under its name again:
 - its configuration is not valid any more: a key was added, renamed or removed.
 A change of metrics does not make it stale: they are measured again from its fields. Beside records: files
 set aside as unreadable, claims whose process is gone, logs without a record, unfinished writes, and
-checkpoints a month old. Records that failed or timed out are kept: retry= says when they are tried again."""
+checkpoints a month old. Records that failed or timed out are kept: retry= says when they are tried
+again."""
 
 
 @dataclass(frozen=True)

@@ -157,6 +157,7 @@ def test_buckling_is_an_unstable_state_not_an_answer():
         (["scene=mode1", "solve=modes"], "it does not vibrate"),
         (["scene=plate", "solve=modes", "solve.count=1000", "n=3", "h=1.3"], "that can be found"),
         (["scene=mode1", "solve=equilibrium", "record.times=[1.0]"], "knows no time"),
+        (["scene=mode1", "solve=equilibrium", "record.frames=3"], "record.frames=3: solve=equilibrium"),
         (["scene=mode1", "solve.smoothing=0.5"], "no smoothed velocity"),
         (["scene=mode1", "method=thesis", "solve.time_step=frequency"], "take courant"),
         (["scene=mode1", "method=thesis", "solve.integrator=verlet"], "method thesis takes heun"),

@@ -18,9 +18,6 @@ import numba
 
 _PACKAGE = Path(__file__).parent
 
-# `nnan` and `ninf` stay out: with them the compiler deletes the very checks that notice a blow-up.
-_FAST_MATH = {"contract", "reassoc", "nsz", "arcp"}
-
 # Loops over many arrays need more run-time alias checks than LLVM's defaults admit; without these
 # the pair loops are not vectorised at all.
 _LLVM_OPTIONS = ("-runtime-memory-check-threshold=256", "-vectorize-memory-check-threshold=512")
@@ -68,23 +65,18 @@ if not os.environ.get("NUMBA_CACHE_DIR"):
 for _option in _LLVM_OPTIONS:
     llvmlite.binding.set_option("sphstudy", _option)
 
-# Said, not left out: what says nothing takes over the rearrangements of whoever calls it first.
-_EXACT: dict[str, Any] = {"cache": True, "error_model": "numpy", "fastmath": False}
-_FAST: dict[str, Any] = {**_EXACT, "fastmath": _FAST_MATH}
+# IEEE arithmetic, nothing rearranged: into whichever caller a function is compiled, from the cache or
+# not, for one thread or several, for wide vectors or narrow ones, it computes the same bits. Inlined,
+# which gains more time than rearrangement did: LLVM does not see through calls with so many arrays.
+_OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "forceinline": True}
 # Without the wrappers through which Python would call it, a function compiles in half the time.
 _INNER: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
-compiled = numba.njit(**_FAST)
-"""Decorator for arithmetic: fused, reassociated, but with NaN and infinity kept meaningful."""
+compiled = numba.njit(**_OPTIONS)
+"""Decorator for functions that Python calls."""
 
-compiled_inner = numba.njit(**_FAST, **_INNER)
+compiled_inner = numba.njit(**_OPTIONS, **_INNER)
 """The same for functions that only compiled functions call."""
 
-compiled_parallel = numba.njit(**_FAST, **_INNER, parallel=True)
+compiled_parallel = numba.njit(**_OPTIONS, **_INNER, parallel=True)
 """The same for loops over blocks that several threads share (numba.prange)."""
-
-compiled_exactly = numba.njit(**_EXACT)
-"""Decorator for checks and geometry, where every comparison must mean what it says."""
-
-compiled_exactly_inner = numba.njit(**_EXACT, **_INNER)
-"""The same for functions that only compiled functions call."""

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled, compiled_exactly_inner
+from sphstudy.compilation import compiled, compiled_inner
 from sphstudy.sph.neighbours import look, outdated
 from sphstudy.sph.updated_lagrangian import (
     RHO,
@@ -49,7 +49,7 @@ def buffers(model: Model, count: int, threads: int = 1) -> Buffers:
     return Buffers(predicted, first, second, workspace(model, count, threads))
 
 
-@compiled_exactly_inner
+@compiled_inner
 def is_sound(state, bulk_modulus):
     """Whether everything is finite, all densities are positive, and nothing outruns sound, c² = K/ρ."""
     for i in range(state.shape[1]):

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled, compiled_exactly, compiled_exactly_inner, compiled_inner
+from sphstudy.compilation import compiled, compiled_inner
 from sphstudy.sph import neighbours, total_lagrangian
 from sphstudy.sph.constraints import prescribe
 
@@ -57,7 +57,7 @@ def accelerate(model, state, memory):
         state[AY, i] = force[1, i] / model.mass[i]
 
 
-@compiled_exactly
+@compiled
 def soundness(model, state, memory, dt):
     """Whether all is finite, nothing turned inside out, nothing outruns sound or moves too far in a step.
 
@@ -79,7 +79,7 @@ def soundness(model, state, memory, dt):
     return SOUND
 
 
-@compiled_exactly_inner
+@compiled_inner
 def _outdated(contact, state, dt):
     """Whether a pair in contact may be missed in the next step."""
     if contact is None:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled_exactly
+from sphstudy.compilation import compiled
 from sphstudy.sph import kernel, neighbours, pair_blocks
 from sphstudy.sph.crack import Crack, line_of_sight, visible
 from sphstudy.sph.kernel import Kernel
@@ -58,7 +58,7 @@ class Bonds(NamedTuple):
         return int(np.count_nonzero(self.there)) + self.first.size
 
 
-@compiled_exactly
+@compiled
 def _in_sight(x, y, first, second, crack):
     """For each pair whether the particles see each other past the crack; x, y [N] (m)."""
     x, y, node_x, node_y, tolerance, _ = line_of_sight(crack, x, y)
@@ -69,7 +69,7 @@ def _in_sight(x, y, first, second, crack):
     return seen
 
 
-@compiled_exactly
+@compiled
 def _weights(x, y, volume, first, second, shape, smoothing_length, normalisation):
     """w, X_j - X_i and Y_j - Y_i of each pair."""
     weight, along, across = np.empty(first.size), np.empty(first.size), np.empty(first.size)
@@ -82,7 +82,7 @@ def _weights(x, y, volume, first, second, shape, smoothing_length, normalisation
     return weight, along, across
 
 
-@compiled_exactly
+@compiled
 def _runs(first, second, weight, x, y, heaviest, farthest, size):
     """Begin and end of the runs among the sorted pairs, and a mask of the pairs in none."""
     total = first.size
@@ -112,7 +112,7 @@ def _runs(first, second, weight, x, y, heaviest, farthest, size):
     return begin[:runs], end[:runs], single
 
 
-@compiled_exactly
+@compiled
 def _there(first, begin, end, at, total):
     """Along the runs, one after another, 1 where there is a bond and 0 where it is missing."""
     found = np.zeros(total, np.uint8)

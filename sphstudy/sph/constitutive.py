@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled, compiled_exactly, compiled_inner
+from sphstudy.compilation import compiled, compiled_inner
 from sphstudy.sph.material import Material
 
 LAWS = ("linear", "svk", "neohookean")
@@ -130,7 +130,7 @@ def energy_density(law, xx, xy, yx, yy):
     return _energy(law.svk, law.neohookean, law.thins, law.lame, law.shear, xx, xy, yx, yy)
 
 
-@compiled_exactly
+@compiled
 def stresses(law, gradient):
     """P [4, N] (Pa) at the deformation gradients F [4, N]."""
     found = np.empty_like(gradient)
@@ -141,7 +141,7 @@ def stresses(law, gradient):
     return found
 
 
-@compiled_exactly
+@compiled
 def energy_densities(law, gradient):
     """ψ [N] (J/m³) at the deformation gradients F [4, N]."""
     found = np.empty(gradient.shape[1])
@@ -186,7 +186,7 @@ def tangent(law: Law, gradient: np.ndarray) -> np.ndarray:
     )
 
 
-@compiled_exactly
+@compiled
 def _thicknesses(law, log_area):
     found = np.empty_like(log_area)
     for i in range(log_area.size):

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled_exactly, compiled_exactly_inner
+from sphstudy.compilation import compiled, compiled_inner
 
 TOLERANCE = 1e-9
 """Widening of both segments in the visibility test, in units of their lengths.
@@ -29,7 +29,7 @@ class Crack(NamedTuple):
     frozen: np.ndarray | None = None
 
 
-@compiled_exactly_inner
+@compiled_inner
 def _crossing(ax, ay, bx, by, px, py, qx, qy):
     """λ₁, λ₂ of a + λ₁ (b - a) = p + λ₂ (q - p); infinite if the segments are parallel."""
     dx, dy = bx - ax, by - ay
@@ -41,7 +41,7 @@ def _crossing(ax, ay, bx, by, px, py, qx, qy):
     return (ex * fy - ey * fx) / determinant, (dx * fy - dy * fx) / determinant
 
 
-@compiled_exactly
+@compiled
 def crosses(ax, ay, bx, by, px, py, qx, qy, tolerance):
     """Whether segment a-b meets segment p-q: both λ in [0, 1], widened by `tolerance` (thesis 2.7)."""
     along_pair, along_crack = _crossing(ax, ay, bx, by, px, py, qx, qy)
@@ -49,14 +49,14 @@ def crosses(ax, ay, bx, by, px, py, qx, qy, tolerance):
     return low <= along_pair <= high and low <= along_crack <= high
 
 
-@compiled_exactly_inner
+@compiled_inner
 def _judged(frozen, x, y):
     if frozen is None:
         return x, y, False
     return frozen[0], frozen[1], True
 
 
-@compiled_exactly
+@compiled
 def line_of_sight(crack, x, y):
     """Positions in which visibility is judged, nodes of the polyline [K], tolerance, whether frozen."""
     if crack is None:
@@ -67,7 +67,7 @@ def line_of_sight(crack, x, y):
     return x, y, node_x, node_y, crack.tolerance, frozen
 
 
-@compiled_exactly
+@compiled
 def visible(ax, ay, bx, by, node_x, node_y, tolerance):
     """Whether a and b see each other past the polyline through the nodes [K]."""
     for k in range(node_x.size - 1):
@@ -76,7 +76,7 @@ def visible(ax, ay, bx, by, node_x, node_y, tolerance):
     return True
 
 
-@compiled_exactly_inner
+@compiled_inner
 def _distance_squared(x, y, px, py, qx, qy):
     """From a point to the segment p-q."""
     dx, dy = qx - px, qy - py
@@ -87,7 +87,7 @@ def _distance_squared(x, y, px, py, qx, qy):
     return (x - px - along * dx) ** 2 + (y - py - along * dy) ** 2
 
 
-@compiled_exactly
+@compiled
 def outlook(ax, ay, bx, by, node_x, node_y, tolerance, margin):
     """What can become of the sight between a and b while nothing moves relative to them by `margin` (m).
 

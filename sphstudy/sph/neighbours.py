@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled_exactly, compiled_exactly_inner
+from sphstudy.compilation import compiled, compiled_inner
 from sphstudy.sph import pair_blocks
 from sphstudy.sph.crack import HIDDEN, IN_DOUBT, Crack, line_of_sight, outlook, visible
 
@@ -58,7 +58,7 @@ class Neighbours(NamedTuple):
     built_y: np.ndarray
 
 
-@compiled_exactly_inner
+@compiled_inner
 def _cells(x, y, reach):
     """Particles sorted into square cells at least `reach` wide: (columns, rows, begin, order)."""
     count = x.size
@@ -91,12 +91,12 @@ def _cells(x, y, reach):
     return columns, rows, begin, order, cell
 
 
-@compiled_exactly_inner
+@compiled_inner
 def _grown(array):
     return np.concatenate((array, np.empty_like(array)))
 
 
-@compiled_exactly
+@compiled
 def close_pairs(x, y, reach):
     """All pairs i < j closer than `reach`, ordered by i: two int32 arrays."""
     count = x.size
@@ -120,7 +120,7 @@ def close_pairs(x, y, reach):
     return first[:found], second[:found]
 
 
-@compiled_exactly
+@compiled
 def _judge(first, second, x, y, margin, crack):
     """For all close pairs: whether they last, whether they are to be watched, and past which segments.
 
@@ -147,7 +147,7 @@ def block_size(first: np.ndarray, second: np.ndarray) -> int:
     return max(BLOCK, 1 + int((second - first).max(initial=0)))
 
 
-@compiled_exactly
+@compiled
 def sorted_by_offset(first, second, count, size):
     """The pairs ordered by (block of `size` i, j - i, i): stable counting sort within each block."""
     total = first.size
@@ -176,7 +176,7 @@ def sorted_by_offset(first, second, count, size):
     return ordered_first, ordered_second
 
 
-@compiled_exactly_inner
+@compiled_inner
 def _bridges(x, y, reach, first, second, p, size):
     """Whether a run may go on from pair p to pair p + 1: same block and offset, nothing within reach
     skipped.
@@ -194,7 +194,7 @@ def _bridges(x, y, reach, first, second, p, size):
     return True
 
 
-@compiled_exactly
+@compiled
 def _runs(x, y, reach, first, second, size):
     """Runs of the sorted pairs: start, offset, length, and a mask of the pairs that are in none."""
     total = first.size
@@ -254,7 +254,7 @@ def build(x: np.ndarray, y: np.ndarray, support: float, skin: float, crack: Crac
     )
 
 
-@compiled_exactly
+@compiled
 def look(pairs, x, y, crack):
     """Brings the singles in force up to date with the configuration x, y [N] (m)."""
     if pairs.watched_first.size == 0:
@@ -271,7 +271,7 @@ def look(pairs, x, y, crack):
     pairs.singles[0] = filled
 
 
-@compiled_exactly
+@compiled
 def outdated(pairs, x, y, stride):
     """Whether a particle may get farther than half the skin from where the list was built, moving by up
     to `stride` (m) from x, y [N] (m).

@@ -2,17 +2,17 @@
 
 import numpy as np
 
-from sphstudy.compilation import compiled_exactly, compiled_exactly_inner
+from sphstudy.compilation import compiled, compiled_inner
 from sphstudy.sph.invariants import Invariants
 from sphstudy.sph.updated_lagrangian import RHO, SXX, SXY, SYY, VX, VY, X, Y
 
 
-@compiled_exactly_inner
+@compiled_inner
 def _distance_squared(state, i, j):
     return (state[X, i] - state[X, j]) ** 2 + (state[Y, i] - state[Y, j]) ** 2
 
 
-@compiled_exactly
+@compiled
 def measure(state, rate, mass, youngs_modulus, poisson_ratio, constraints, amplitude_rate, pairs):
     """Invariants of a state [8, N] with unconstrained, undamped rates [8, N].
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled, compiled_exactly, compiled_inner
+from sphstudy.compilation import compiled, compiled_inner
 from sphstudy.sph import bond_sums, bonds, constitutive, viscosity
 from sphstudy.sph import contact as contacts
 from sphstudy.sph.bonds import Bonds
@@ -272,7 +272,7 @@ def add_viscosity(viscous, model, velocity_x, velocity_y, x, y, force):
         _add_viscous(viscous, model, velocity_x, velocity_y, x, y, i, j, w, force)
 
 
-@compiled_exactly
+@compiled
 def inverted(law, gradient):
     """How many particles are turned inside out, det F ≤ 0; to the linear law that means nothing."""
     count = 0

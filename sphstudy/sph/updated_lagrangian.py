@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.compilation import compiled, compiled_exactly, compiled_inner
+from sphstudy.compilation import compiled, compiled_inner
 from sphstudy.sph import neighbours, pair_sums, smoothing_sums
 from sphstudy.sph.artificial_stress import ArtificialStress, principal_pressure
 from sphstudy.sph.constraints import Constraints, prescribe, release
@@ -84,7 +84,7 @@ def neighbours_at(model: Model, x: np.ndarray, y: np.ndarray, skin: float) -> Ne
     return neighbours.build(x, y, support, skin, model.crack)
 
 
-@compiled_exactly
+@compiled
 def fastest(model, state, amplitude_rate):
     """Largest speed (m/s) that a particle has, or is about to be given by its constraints.
 

@@ -4,7 +4,6 @@ import numba
 import numpy as np
 import pytest
 
-from sphstudy.compilation import _FAST_MATH
 from sphstudy.sph import (
     bond_sums,
     constitutive,
@@ -118,7 +117,7 @@ def test_no_optional_number_goes_to_threads(rng):
     """On its way to them Numba loses whether it is there, in one process out of many."""
     positions = bodies(rng)["lattice"]
     # Compiled afresh: what is loaded from the cache does not tell what it hands on.
-    fresh = numba.njit(fastmath=_FAST_MATH, error_model="numpy")(total_lagrangian.force.py_func)
+    fresh = numba.njit(error_model="numpy")(total_lagrangian.force.py_func)
     work = total_lagrangian.workspace(positions.shape[1], 2)
     fresh(elastic(positions), *positions, work, np.zeros_like(positions))
     assert bond_sums.forces.signatures

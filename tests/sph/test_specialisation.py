@@ -22,9 +22,7 @@ def generated(rng, terms):
     kernel = pair_sums._momentum_terms.py_func
     import numba
 
-    from sphstudy.compilation import _FAST_MATH
-
-    fresh = numba.njit(fastmath=_FAST_MATH, error_model="numpy")(kernel)
+    fresh = numba.njit(error_model="numpy")(kernel)
     zero, count = np.int64(0), np.int64(8)
     fresh(made, work.pair_data, zero, count, count, work.terms[0])
     return fresh.inspect_llvm(fresh.signatures[0])
@@ -66,9 +64,7 @@ def generated_from(function, *arguments):
     """LLVM code of a compiled function for these arguments, compiled afresh."""
     import numba
 
-    from sphstudy.compilation import _FAST_MATH
-
-    fresh = numba.njit(fastmath=_FAST_MATH, error_model="numpy")(function.py_func)
+    fresh = numba.njit(error_model="numpy")(function.py_func)
     fresh(*arguments)
     return fresh.inspect_llvm(fresh.signatures[0])
 

@@ -25,8 +25,9 @@ class Cell:
         return " ".join(f"{key}={shown(value)}" for key, value in self.place.items())
 
 
-def cells(dataset: xr.Dataset) -> list[Cell]:
-    """All points of a combined dataset; cells that are no point are left out.
+def cells(dataset: xr.Dataset, without: str = "") -> list[Cell]:
+    """All points of a combined dataset, but for those of an outcome `without`, and for cells that are no
+    point.
 
     Raises ValueError if it is not a combined dataset of this program.
     """
@@ -38,13 +39,14 @@ def cells(dataset: xr.Dataset) -> list[Cell]:
     numbers = [str(n) for n, v in flat.data_vars.items() if v.dtype.kind == "f" and v.dims == ("cell",)]
     columns = {name: flat[name].values for name in (*places, *numbers)}
     found = []
-    for k, text in enumerate(flat["configuration"].values):
-        if text:
+    texts, outcomes = flat["configuration"].values, flat["status"].values
+    for k, (text, outcome) in enumerate(zip(texts, outcomes, strict=True)):
+        if text and (status := STATUS[int(outcome)]) != without:
             found.append(
                 Cell(
                     {key: columns[key][k] for key in places},
                     flattened(json.loads(text)),
-                    STATUS[int(flat["status"].values[k])],
+                    status,
                     {name: float(columns[name][k]) for name in numbers},
                 )
             )

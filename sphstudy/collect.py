@@ -14,7 +14,8 @@ from sphstudy import identity, provenance, record
 from sphstudy.config import RunConfig
 from sphstudy.record import STATUS
 from sphstudy.runner import measured
-from sphstudy.store import Store, Summary, write
+from sphstudy.store import Store, write
+from sphstudy.summary import Summary
 
 ALWAYS = ("h", "n")
 """Dimensions of every combined dataset, swept or not."""
@@ -31,10 +32,16 @@ SPARSEST = 8
 
 def dimensions(configs: list[RunConfig]) -> dict[str, list[Any]]:
     """The swept keys, h and n included, each with its values in order of appearance, numbers sorted."""
-    flat = [config.flat() for config in configs]
+    return _swept([config.flat() for config in configs])
+
+
+def _swept(flat: list[dict[str, Any]]) -> dict[str, list[Any]]:
     keys = {key: None for point in flat for key in point}
     swept = {}
     for key in keys:
+        first = flat[0].get(key)
+        if key not in ALWAYS and all(point.get(key) == first for point in flat):
+            continue
         values = list({hashable(point.get(key)): None for point in flat})
         if len(values) > 1 or key in ALWAYS:
             numbers = all(isinstance(v, int | float) and not isinstance(v, bool) for v in values)
@@ -76,11 +83,11 @@ def collect(configs: list[RunConfig], store: Store, name: str | None = None) -> 
     dataset has the one dimension `point`, and what was swept are coordinates along it. Returns the
     dataset and its file, `name` or a name made from the points.
     """
-    swept = dimensions(configs)
+    flat = [config.flat() for config in configs]
+    swept = _swept(flat)
     found, attributes = rows(configs, store)
     table = pd.DataFrame(found).drop(columns=[key for key in ORIGIN if key != "message"])
-    table["configuration"] = [json.dumps(config.as_dict(), sort_keys=True) for config in configs]
-    flat = [config.flat() for config in configs]
+    table["configuration"] = [config.text for config in configs]
     places = pd.DataFrame([{key: hashable(point.get(key)) for key in swept} for point in flat])
     if math.prod(map(len, swept.values())) > SPARSEST * len(configs):
         dataset = _list(table, places, attributes)
@@ -130,7 +137,7 @@ def _current(config: RunConfig, store: Store) -> Summary | None:
         run = store.read(config)
         if run is None:
             return None
-        write(measured(run, config), store.record_path(config))
+        store.keep(config, measured(run, config))
         return store.summary(config)
     return summary
 

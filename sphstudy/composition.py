@@ -2,6 +2,7 @@
 
 import dataclasses
 import difflib
+import gc
 import itertools
 import math
 import os
@@ -58,6 +59,19 @@ class Launcher:
     settings: dict[str, Any]
 
 
+@dataclass(frozen=True)
+class _Taken:
+    """An override as it is applied: what was written, and whether it chooses from a group; if not, which
+    value below a path of keys it sets, and to what.
+    """
+
+    line: str
+    is_group: bool
+    path: tuple[str, ...]
+    name: str
+    value: Any
+
+
 class _NotValid(ConfigurationError):
     """A point that was composed but does not make a run."""
 
@@ -72,7 +86,7 @@ class Session:
         # Hydra looks through its folders every time it is asked.
         self._options = cache(self._loader.get_group_options)
         # The same few overrides make a large grid.
-        self._parsed = cache(self._parser.parse_override)
+        self._taken = cache(self._take)
 
     def points(
         self, arguments: list[str], sweep: bool, skipped: list[str] | None = None
@@ -171,31 +185,36 @@ class Session:
 
         Configuration groups are composed once per choice; single values are set on a copy.
         """
-        parsed = [self._parsed(override) for override in overrides]
-        groups = [o for o in parsed if self._options(o.key_or_group)]
-        chosen = tuple(str(o.input_line) for o in groups)
+        taken = [self._taken(override) for override in overrides]
+        chosen = tuple(one.line for one in taken if one.is_group)
         if chosen not in self._composed:
             config = self._loader.load_configuration("config", list(chosen), RunMode.RUN)
-            self._composed[chosen] = _without_hydra(config)
+            self._composed[chosen] = _rounded(_without_hydra(config))
         # Plain dictionaries, of which only what changes is copied: there may be 20 000 of them.
         values = dict(self._composed[chosen])
         complaints = []
-        for override in parsed:
-            if override in groups:
+        for one in taken:
+            if one.is_group:
                 continue
-            *path, last = override.key_or_group.split(".")
             node: Any = values
-            for part in path:
+            for part in one.path:
                 if isinstance(inner := node.get(part), dict):
                     node[part] = dict(inner)
                 node = node.get(part) if isinstance(inner, dict) else {}
-            if last in node:
-                node[last] = override.value()
+            if one.name in node:
+                node[one.name] = one.value
             else:
-                complaints.append(_unknown(values, override))
+                complaints.append(_unknown(values, one))
         if complaints:
             raise ConfigurationError(complaints)
         return values
+
+    def _take(self, text: str) -> _Taken:
+        override = self._parser.parse_override(text)
+        *path, name = override.key_or_group.split(".")
+        is_group = bool(self._options(override.key_or_group))
+        value = None if is_group else _rounded(override.value())
+        return _Taken(str(override.input_line), is_group, tuple(path), name, value)
 
     def launcher(self, overrides: list[str]) -> Launcher:
         """The launcher that the configuration and the overrides name.
@@ -233,8 +252,15 @@ def launcher_overrides(arguments: list[str]) -> list[str]:
 def session() -> Iterator[Session]:
     """A Session on the project's configuration folder."""
     folder = str(configuration_folder().resolve())
-    with initialize_config_dir(folder, version_base="1.3", job_name="sphstudy"):
-        yield Session()
+    # Points, records and what is told of them are many and stay: looking for garbage among them again and
+    # again takes as long as making them.
+    before = gc.get_threshold()
+    gc.set_threshold(500_000, *before[1:])
+    try:
+        with initialize_config_dir(folder, version_base="1.3", job_name="sphstudy"):
+            yield Session()
+    finally:
+        gc.set_threshold(*before)
 
 
 def taken_execution(composed: dict[str, Any]) -> Execution:
@@ -265,10 +291,11 @@ def _spanned(overrides: list[Override]) -> int:
 
 def _too_many(threads: int, config: RunConfig) -> str | None:
     """What is wrong with so many threads for this run."""
-    cores = os.cpu_count() or 1
-    if threads > cores:
+    if threads == 1:
+        return None
+    if threads > (cores := os.cpu_count() or 1):
         return f"threads={threads}: this machine has {cores} cores"
-    if threads > 1 and not solver_module(config.solve.name).THREADS:
+    if not solver_module(config.solve.name).THREADS:
         return f"threads={threads}: solver {config.solve.name} runs on one thread"
     return None
 
@@ -280,14 +307,23 @@ def _without_hydra(config: DictConfig) -> dict[str, Any]:
     return values
 
 
-def _unknown(values: dict[str, Any], override: Override) -> str:
-    *path, last = override.key_or_group.split(".")
+def _rounded(values: Any) -> Any:
+    """Floats to 12 significant digits: range(1,2,0.1) must not make two coordinates of 1.9."""
+    if isinstance(values, dict):
+        return {key: _rounded(value) for key, value in values.items()}
+    if isinstance(values, list):
+        return [_rounded(value) for value in values]
+    return float(f"{values:.12g}") if isinstance(values, float) else values
+
+
+def _unknown(values: dict[str, Any], given: _Taken) -> str:
+    path, last = list(given.path), given.name
     node: Any = values
     for part in path:
         node = node.get(part) if isinstance(node, dict) else None
     if not isinstance(node, dict):
-        node, path, last = values, [], override.key_or_group
+        node, path, last = values, [], ".".join([*path, last])
     names = sorted(str(name) for name in node)
     close = difflib.get_close_matches(last, names, n=1, cutoff=0.5)
     hint = f"did you mean {'.'.join([*path, close[0]])}?" if close else ""
-    return f"{override.input_line}: there is no such key; {hint or 'there are ' + ', '.join(names)}"
+    return f"{given.line}: there is no such key; {hint or 'there are ' + ', '.join(names)}"

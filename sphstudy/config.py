@@ -6,10 +6,11 @@ Scenes and methods are found by the `kind` in their YAML file: module `sphstudy.
 
 import dataclasses
 import importlib
+import json
 import os
 import re
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -50,14 +51,23 @@ class RunConfig:
 
     def as_dict(self) -> dict[str, Any]:
         """Nested plain dictionary: the resolved configuration as it is stored and hashed."""
+        return {key: dict(v) if isinstance(v, dict) else v for key, v in self._plain.items()}
+
+    @cached_property
+    def text(self) -> str:
+        """The same as JSON, always the same text for the same run."""
+        return json.dumps(self._plain, sort_keys=True)
+
+    def flat(self) -> dict[str, Any]:
+        """As dictionary with dotted keys; `scene`, `method`, `solve` stand for their names."""
+        return flattened(self._plain)
+
+    @cached_property
+    def _plain(self) -> dict[str, Any]:
         return adapter(RunConfig).dump_python(self, mode="json", warnings=False) | {
             part: _adapter_of(getattr(self, part)).dump_python(getattr(self, part), mode="json")
             for part in ("scene", "method", "solve")
         }
-
-    def flat(self) -> dict[str, Any]:
-        """The same with dotted keys; `scene`, `method`, `solve` stand for their names."""
-        return flattened(self.as_dict())
 
     @property
     def label(self) -> str:
@@ -113,6 +123,7 @@ def headline(scene: str, solver: str) -> tuple[str, ...]:
     return getattr(solver_module(solver), "HEADLINE", scene_module(scene).HEADLINE)
 
 
+@cache
 def _module(package: str, name: str) -> ModuleType:
     if not (isinstance(name, str) and name.isidentifier()):
         raise ConfigurationError([f"{package}: {name!r} is not the name of a module"])
@@ -142,7 +153,6 @@ def validate(composed: dict[str, Any]) -> RunConfig:
     Raises ConfigurationError with every complaint: types, ranges, unknown keys, fit of scene, method
     and resolution, and memory.
     """
-    composed = _rounded(composed)
     complaints: list[str] = []
     parts: dict[str, Any] = {}
     try:
@@ -177,15 +187,6 @@ def validate(composed: dict[str, Any]) -> RunConfig:
     return config
 
 
-def _rounded(values: Any) -> Any:
-    """Floats to 12 significant digits: range(1,2,0.1) must not make two coordinates of 1.9."""
-    if isinstance(values, dict):
-        return {key: _rounded(value) for key, value in values.items()}
-    if isinstance(values, list):
-        return [_rounded(value) for value in values]
-    return float(f"{values:.12g}") if isinstance(values, float) else values
-
-
 def checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
     """The values as an instance of a class of parameters; None, and complaints added, if they are not."""
     try:
@@ -204,13 +205,18 @@ def checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
 def _memory_complaint(config: RunConfig, scene: ModuleType, method: ModuleType) -> list[str]:
     particles = scene.particles(config)
     needed = method.memory(particles, config)
-    there = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    there = _memory_of_machine()
     if needed <= there:
         return []
     return [
         f"n={config.n}: {particles:,} particles need about {_size(needed)} of memory, "
         f"this machine has {_size(there)}"
     ]
+
+
+@cache
+def _memory_of_machine() -> int:
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
 
 
 def _size(count_of_bytes: float) -> str:

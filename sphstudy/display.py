@@ -1,5 +1,6 @@
 """Live display of a sweep: points done, runs with their steps, time left; plain lines in a pipe."""
 
+import os
 import threading
 import time
 from collections.abc import Iterator
@@ -38,6 +39,10 @@ class _Follower:
     def _stamp(self) -> int:
         return self.record.stat().st_mtime_ns if self.record.exists() else 0
 
+    def leaves(self, files: set[str]) -> bool:
+        """Whether the run has left any of these."""
+        return self.record.name in files or self.claim.name in files
+
     def look(self) -> bool:
         """Looks at the files; True if the run has just finished."""
         self.note = holder(self.claim)
@@ -64,14 +69,18 @@ class _Board:
 
     def __init__(self, runs: list[tuple[RunConfig, float]], store: Store, reused: int):
         self.followers = [_Follower(config, cost, store) for config, cost in runs]
-        self.reused = reused
+        self.folder, self.reused = store.runs, reused
         self.cost = sum(cost for _, cost in runs)
         self.started = time.monotonic()
 
     def news(self) -> Iterator[str]:
         """Looks at all runs; a plain line for each that has just finished."""
+        # The folder once, not every file that might be there: twice a second, and there may be 20 000.
+        there = set(os.listdir(self.folder))
         for follower in self.followers:
-            if not follower.finished and follower.look():
+            if follower.finished or not (follower.note or follower.leaves(there)):
+                continue
+            if follower.look():
                 yield self.line(follower)
 
     @property

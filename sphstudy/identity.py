@@ -43,7 +43,7 @@ def key(config: RunConfig) -> str:
 
 @lru_cache(maxsize=100_000)
 def _key(config: RunConfig, version: str) -> str:
-    text = json.dumps([config.as_dict(), version], sort_keys=True)
+    text = f"[{config.text}, {json.dumps(version)}]"
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 

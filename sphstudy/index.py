@@ -4,14 +4,11 @@ A cache and no more: an entry counts only for the very file that it was made fro
 database that is damaged, locked or not writable is done without.
 """
 
-import json
 import sqlite3
 from contextlib import closing, suppress
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-import numpy as np
+from sphstudy.summary import Summary, of_text
 
 BATCH = 200
 """New entries after which they are written."""
@@ -19,50 +16,35 @@ BATCH = 200
 _TABLE = "CREATE TABLE IF NOT EXISTS records (name TEXT PRIMARY KEY, stamp TEXT, summary TEXT)"
 
 
-@dataclass(frozen=True)
-class Summary:
-    """A record without its fields: outcome, global attributes, and each metric and cost with its own."""
-
-    status: str
-    attributes: dict[str, Any]
-    numbers: dict[str, tuple[float, dict[str, Any]]]
-
-
-def plain(value: Any) -> Any:
-    """An attribute of a netCDF file as JSON can keep it."""
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    return value.item() if isinstance(value, np.generic) else value
-
-
 class Index:
     """The summaries known of a folder, read when first asked for."""
 
     def __init__(self, path: Path):
         self.path = path
-        self._known: dict[str, tuple[str, str]] | None = None
+        # Texts become summaries when they are asked for: several times, in a study.
+        self._known: dict[str, tuple[str, str | Summary]] | None = None
         self._new: dict[str, tuple[str, str]] = {}
 
     def get(self, name: str, stamp: tuple[int, int]) -> Summary | None:
         """The summary of a file of this name, written at that time and so large; None if unknown."""
         if self._known is None:
             self._known = self._read()
-        seen, text = self._known.get(name, ("", ""))
+        seen, found = self._known.get(name, ("", ""))
         if seen != _text(stamp):
             return None
-        try:
-            status, attributes, numbers = json.loads(text)
-            return Summary(status, attributes, {key: (v, own) for key, (v, own) in numbers.items()})
-        except (ValueError, TypeError, AttributeError):
-            return None
+        if isinstance(found, str):
+            try:
+                found = of_text(found)
+            except ValueError:
+                return None
+            self._known[name] = seen, found
+        return found
 
     def put(self, name: str, stamp: tuple[int, int], summary: Summary) -> None:
         """Keeps a summary, in the file too before long."""
-        text = json.dumps([summary.status, summary.attributes, summary.numbers])
-        entry = (_text(stamp), text)
         if self._known is not None:
-            self._known[name] = entry
-        self._new[name] = entry
+            self._known[name] = _text(stamp), summary
+        self._new[name] = _text(stamp), summary.text
         if len(self._new) >= BATCH:
             self.flush()
 
@@ -80,7 +62,7 @@ class Index:
             rows = [(name, stamp, text) for name, (stamp, text) in new.items()]
             file.executemany("INSERT OR REPLACE INTO records VALUES (?, ?, ?)", rows)
 
-    def _read(self) -> dict[str, tuple[str, str]]:
+    def _read(self) -> dict[str, tuple[str, str | Summary]]:
         if not self.path.exists():
             return {}
         try:

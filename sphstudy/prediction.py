@@ -11,6 +11,7 @@ import json
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -94,19 +95,77 @@ class Rates:
 
     def seconds(self, config: RunConfig, work: Work, without: str = "") -> float:
         """Predicted CPU time of a run (s), compilation apart, but for what the record `without` tells."""
-        others = [m for m in self.measurements if m.name != without]
-        predicted = _from(others, config.flat(), work)
-        return _usual(config.flat(), work) if math.isnan(predicted) else predicted
+        flat = config.flat()
+        predicted = self._predicted(flat, work, without)
+        return _usual(flat, work) if math.isnan(predicted) else predicted
 
     def left_out(self) -> dict[str, tuple[float, float]]:
         """Predicted and measured CPU seconds of each run, by its record, as all the others predict it;
         NaN where none is like it.
         """
-        found = {}
+        return {
+            one.name: (self._predicted(one.flat, one.work, one.name), one.cpu_seconds)
+            for one in self.measurements
+        }
+
+    def _predicted(self, flat: dict[str, Any], work: Work, without: str) -> float:
+        """CPU time of a run by what runs of its method and solver took; NaN if there are none (s)."""
+        if not work.steps:
+            return 0.0
+        alike = self._alike.get((flat["method"], flat["solve"]))
+        return math.nan if alike is None else alike.seconds(flat, work, without)
+
+    @cached_property
+    def _alike(self) -> dict[tuple[str, str], "_Alike"]:
+        groups: dict[tuple[str, str], list[Measurement]] = {}
         for one in self.measurements:
-            others = [m for m in self.measurements if m is not one]
-            found[one.name] = _from(others, one.flat, one.work), one.cpu_seconds
-        return found
+            groups.setdefault((one.flat["method"], one.flat["solve"]), []).append(one)
+        return {key: _Alike(found) for key, found in groups.items()}
+
+
+class _Alike:
+    """Runs of one method and solver, as arrays over them: a study may ask 20 000 times."""
+
+    def __init__(self, measured: list[Measurement]):
+        self._names = np.array([m.name for m in measured])
+        self._scenes = np.array([m.flat["scene"] for m in measured])
+        self._sizes = np.log([m.work.sizes for m in measured])
+        self._terms = np.array([m.work.terms for m in measured])
+        self._taken = np.array([max(m.cpu_seconds, 1e-3) for m in measured])
+        usual = np.array([_usual(m.flat, m.work) for m in measured])
+        self._log_rates = np.log(self._taken / usual)
+        self._foreign = np.array([m.foreign for m in measured])
+        self._settings = [_costing(m.flat) for m in measured]
+        self._changed = lru_cache(maxsize=1000)(self._count_changed)
+
+    def seconds(self, flat: dict[str, Any], work: Work, without: str) -> float:
+        """CPU time of a run with these settings and this work (s); NaN if there is none to learn from but
+        that of the record `without`.
+        """
+        others = self._names != without
+        if not others.any():
+            return math.nan
+        differences = (self._sizes_apart(work) + self._kinds_apart(flat))[others]
+        weights = np.exp(differences.min() - differences)
+        terms = self._terms[others] / work.terms / self._taken[others, None]
+        # What few runs leave open follows the solver's own measure of cost.
+        guess = _usual(flat, work) * math.exp(np.average(self._log_rates[others], weights=weights))
+        matrix = np.vstack([weights[:, None] * terms, np.full(terms.shape[1], GUESS / guess)])
+        parts, _ = nnls(matrix, np.append(weights, GUESS))
+        return float(parts.sum())
+
+    def _sizes_apart(self, work: Work) -> np.ndarray:
+        return np.abs(self._sizes - np.log(work.sizes)).sum(axis=1)
+
+    def _kinds_apart(self, flat: dict[str, Any]) -> np.ndarray:
+        return (
+            CHANGED_SETTING * self._changed(tuple(_costing(flat).items()))
+            + OTHER_SCENE * (self._scenes != flat["scene"])
+            + OTHER_ORIGIN * self._foreign
+        )
+
+    def _count_changed(self, settings: tuple[tuple[str, Any], ...]) -> np.ndarray:
+        return np.array([sum(own.get(k) != value for k, value in settings) for own in self._settings])
 
 
 def rates(store: Store) -> Rates:
@@ -138,38 +197,10 @@ def _measurements(store: Store, paths: list[Path]) -> Iterable[Measurement]:
             yield Measurement(path.name, config.flat(), own, seconds, foreign)
 
 
-def _from(measured: Iterable[Measurement], flat: dict[str, Any], work: Work) -> float:
-    """CPU time of a run by what runs of the same method and solver took; NaN if there are none (s)."""
-    alike = [m for m in measured if all(m.flat[key] == flat[key] for key in ("method", "solve"))]
-    if not alike or not work.steps:
-        return math.nan if work.steps else 0.0
-    differences = np.array([_difference(m, flat, work) for m in alike])
-    weights = np.exp(differences.min() - differences)
-    taken = np.array([max(m.cpu_seconds, 1e-3) for m in alike])
-    terms = np.array([m.work.terms for m in alike]) / work.terms / taken[:, None]
-    # What few runs leave open follows the solver's own measure of cost.
-    rates = taken / [_usual(m.flat, m.work) for m in alike]
-    guess = _usual(flat, work) * math.exp(np.average(np.log(rates), weights=weights))
-    matrix = np.vstack([weights[:, None] * terms, np.full(terms.shape[1], GUESS / guess)])
-    parts, _ = nnls(matrix, np.append(weights, GUESS))
-    return float(parts.sum())
-
-
-def _difference(measured: Measurement, flat: dict[str, Any], work: Work) -> float:
-    """How unlike a run is to one with these settings and this work: 0 for the same."""
-    sizes = zip(measured.work.sizes, work.sizes, strict=True)
-    changed = sum(measured.flat.get(key) != value for key, value in flat.items() if _costs(key))
-    return (
-        sum(abs(math.log(one / other)) for one, other in sizes)
-        + CHANGED_SETTING * changed
-        + OTHER_SCENE * (measured.flat["scene"] != flat["scene"])
-        + OTHER_ORIGIN * measured.foreign
-    )
-
-
-def _costs(key: str) -> bool:
-    """Whether a setting may change what a step costs; steps themselves are counted."""
-    return key.startswith("method.") or key in ("solve.integrator", "solve.time_step", "solve.count")
+def _costing(flat: dict[str, Any]) -> dict[str, Any]:
+    """Settings that may change what a step costs; steps themselves are counted."""
+    other = ("solve.integrator", "solve.time_step", "solve.count")
+    return {key: v for key, v in flat.items() if key.startswith("method.") or key in other}
 
 
 def _usual(flat: dict[str, Any], work: Work) -> float:

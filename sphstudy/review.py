@@ -20,7 +20,7 @@ from sphstudy.record import STATUS
 from sphstudy.results import load
 from sphstudy.runner import measured
 from sphstudy.stability import bounds
-from sphstudy.store import Store, read_dataset, write
+from sphstudy.store import Store, read_dataset
 from sphstudy.tables import console, print_tables
 
 SHOWN = 20
@@ -92,7 +92,7 @@ def measure_command(arguments: list[str]) -> int:
         for point in points:
             run = store.read(point.config)
             if run is not None and STATUS[int(run["status"])] == "done":
-                write(measured(run, point.config), store.record_path(point.config))
+                store.keep(point.config, measured(run, point.config))
                 count += 1
         configs = [point.config for point in points]
         dataset, path = collect.collect(configs, store, report_name(name, overrides))

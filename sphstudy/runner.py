@@ -1,6 +1,5 @@
 """One point: solve it, measure it, store it. Whatever happens becomes a record, except Ctrl-C."""
 
-import json
 import resource
 import sys
 import time
@@ -19,7 +18,7 @@ from sphstudy.execution import Execution
 from sphstudy.guard import Log, memory_limited, warnings_to
 from sphstudy.metrics.metric import Metric, measure
 from sphstudy.provenance import provenance
-from sphstudy.store import Store, write
+from sphstudy.store import Store
 
 ELSEWHERE = "elsewhere"
 """What `compute` says of a run that another process is computing."""
@@ -56,8 +55,7 @@ def compute(config: RunConfig, store: Store, execution: Execution) -> str:
             message = f"{type(error).__name__}: {error}".splitlines()[0]
             run = record.without_result("failed", message, _attributes(config))
         run.attrs["date_created"], run.attrs["threads"] = started, str(execution.threads)
-        write(run, store.record_path(config))
-        store.index_record(config)
+        store.keep(config, run)
         outcome = record.STATUS[int(run["status"])]
         log.say(f"{outcome} {run.attrs['message']}")
     # Tried again, such a run goes on from where it had come.
@@ -83,8 +81,7 @@ def give_up(config: RunConfig, store: Store, outcome: str, why: str) -> None:
     run = record.without_result(outcome, why, _attributes(config))
     run.attrs["date_created"] = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
     run.attrs["threads"] = ""
-    write(run, store.record_path(config))
-    store.index_record(config)
+    store.keep(config, run)
     Log(store.log_path(config)).say(f"{outcome} {why}")
     store.claim_path(config).unlink(missing_ok=True)
 
@@ -146,7 +143,7 @@ def measured(run: xr.Dataset, config: RunConfig) -> xr.Dataset:
 def _attributes(config: RunConfig) -> dict[str, str]:
     return {
         "title": config.label,
-        "configuration": json.dumps(config.as_dict(), sort_keys=True),
+        "configuration": config.text,
         "key": identity.key(config),
         "numerics_version": identity.numerics_version(config),
         **provenance(),

@@ -17,10 +17,7 @@ from sphstudy.config import ConfigurationError
 from sphstudy.display import duration
 from sphstudy.planning import plan
 from sphstudy.store import Store
-from sphstudy.tables import console
-
-LONGEST = 400
-"""Rows that are printed; of more, only those that are not done."""
+from sphstudy.tables import LONGEST, console
 
 _SUFFIX = ".running.json"
 

@@ -19,15 +19,14 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, Literal
 
-import netCDF4
 import xarray as xr
 
 from sphstudy import identity
 from sphstudy.claim import is_alive
 from sphstudy.config import ConfigurationError, RunConfig
-from sphstudy.index import Index, Summary, plain
-from sphstudy.record import STATUS
-from sphstudy.seal import SEALED, check_seal, seal, taken_seal
+from sphstudy.index import Index
+from sphstudy.seal import HOW, SEALED, check_seal, seal, taken_seal
+from sphstudy.summary import Summary, of_record, of_text
 
 Format = Literal["NETCDF4", "NETCDF3_64BIT"]
 
@@ -46,6 +45,8 @@ _NEEDED = ("title", "message", "key", "configuration", "numerics_version", "date
 
 _HEAD = 1_000_000
 """Bytes that a file may take beside its numbers."""
+
+_CLAIM, _CHECKPOINT = ".running.json", ".checkpoint"
 
 REUSED = ("done", "diverged")
 """Outcomes that are results: such a point is not computed again."""
@@ -76,11 +77,11 @@ class Store:
 
     def claim_path(self, config: RunConfig) -> Path:
         """The file that exists while the run is being computed."""
-        return self.record_path(config).with_suffix(".running.json")
+        return self.record_path(config).with_suffix(_CLAIM)
 
     def checkpoint_path(self, config: RunConfig) -> Path:
         """The last checkpoint of a run that takes longer than a checkpoint's interval."""
-        return self.record_path(config).with_suffix(".checkpoint")
+        return self.record_path(config).with_suffix(_CHECKPOINT)
 
     def log_path(self, config: RunConfig) -> Path:
         """What became of the run, try after try."""
@@ -114,12 +115,15 @@ class Store:
         self.index.put(path.name, stamp, summary)
         return summary
 
-    def index_record(self, config: RunConfig) -> None:
-        """Adds the record just written to the index, so that nobody has to open it for that."""
-        path = self.record_path(config)
-        with suppress(*UNREADABLE):
+    def keep(self, config: RunConfig, run: xr.Dataset) -> None:
+        """Writes the record of a run, sealed with its summary, and adds it to the index, so that nobody
+        opens it for that. Raises OSError if the disk does not take it.
+        """
+        path, summary = self.record_path(config), of_record(run)
+        write(run, path, text=summary.text)
+        with suppress(OSError):
             found = path.stat()
-            self.index.put(path.name, (found.st_mtime_ns, found.st_size), summarised(path))
+            self.index.put(path.name, (found.st_mtime_ns, found.st_size), summary)
             self.index.flush()
 
     def stamp(self, config: RunConfig) -> int:
@@ -131,44 +135,34 @@ class Store:
 
     def status(self, config: RunConfig) -> str:
         """Outcome of a run; without a record "running", "interrupted" or "missing"."""
-        claim = self.claim_path(config)
+        path = self.record_path(config)
+        claim = path.with_suffix(_CLAIM)
         if is_alive(claim):
             return "running"
-        summary = self.summary(config)
+        summary = self.summary_at(path)
         if summary is not None:
             return summary.status
-        lost = claim.exists() or self.checkpoint_path(config).exists()
+        lost = claim.exists() or path.with_suffix(_CHECKPOINT).exists()
         return "interrupted" if lost else "missing"
 
 
 def summarised(path: Path) -> Summary:
     """The summary of a record file; raises one of UNREADABLE if it is none."""
-    sealed = check_seal(path)
-    # Twenty times faster than through xarray, which matters for a report on a hundred runs.
-    with FILES, netCDF4.Dataset(path) as run:
-        # Nothing here is masked, NaN says what is missing: looking for masks takes most of the time.
-        run.set_auto_maskandscale(False)
-        attributes = {name: run.getncattr(name) for name in run.ncattrs()}
-        taken_seal(attributes, sealed)
-        status = _status(path, run, attributes)
-        own = {
-            name: {key: plain(text) for key, text in v.__dict__.items() if not key.startswith("_")}
-            for name, v in run.variables.items()
-            if v.ndim == 0
-        }
-        numbers = {
-            name: (float(run[name][...]), described)
-            for name, described in own.items()
-            if described.get("group") in ("metric", "cost")
-        }
-    return Summary(status, {name: plain(value) for name, value in attributes.items()}, numbers)
+    text = check_seal(path)
+    try:
+        summary = of_text(text or "")
+    except ValueError:
+        # Sealed by another version, or before there were seals.
+        summary = of_record(_loaded(path))
+    _check(path, summary)
+    return summary
 
 
 def read(path: Path) -> xr.Dataset | None:
     """A record, loaded and closed, or None if there is none or it is unreadable (then set aside)."""
     try:
         run = _loaded(path)
-        _status(path, run, run.attrs)
+        _check(path, of_record(run))
         return run
     except UNREADABLE as error:
         _refuse(path, error)
@@ -176,25 +170,22 @@ def read(path: Path) -> xr.Dataset | None:
 
 
 def _loaded(path: Path) -> xr.Dataset:
-    sealed = check_seal(path)
+    sealed = check_seal(path) is not None
     with FILES, xr.open_dataset(path, engine="netcdf4") as dataset:
         dataset = dataset.load()
     taken_seal(dataset.attrs, sealed)
     return dataset
 
 
-def _status(path: Path, run: Any, attributes: dict[str, Any]) -> str:
-    """The outcome that a file says. Raises ValueError or LookupError if it is no record of that name."""
+def _check(path: Path, summary: Summary) -> None:
+    """Raises ValueError if the summary is not that of a record of that name."""
+    attributes = summary.attributes
     if any(not isinstance(attributes.get(name), str) for name in _NEEDED):
         raise ValueError("not a record of this program")
     if attributes["key"] != path.stem.rpartition("-")[2]:
         raise ValueError(f"the record of another run, {attributes['title']}-{attributes['key']}")
     if not isinstance(json.loads(attributes["configuration"]), dict):
         raise ValueError("without a configuration")
-    code = int(run["status"][...])
-    if not 0 < code < len(STATUS):
-        raise ValueError(f"outcome {code}")
-    return STATUS[code]
 
 
 def _refuse(path: Path, error: Exception) -> None:
@@ -235,11 +226,11 @@ def read_dataset(name: str, results: str | Path) -> xr.Dataset:
     raise ConfigurationError([f"{name}: there is neither {' nor '.join(map(str, candidates))}"])
 
 
-def write(dataset: xr.Dataset, path: Path, format: Format = "NETCDF4") -> None:
+def write(dataset: xr.Dataset, path: Path, format: Format = "NETCDF4", text: str = "") -> None:
     """Writes a dataset so that `path` holds either the old file or the whole new one.
 
-    format: netCDF 4, compressed and sealed, or netCDF 3, ten times smaller where there are many small
-    variables. Raises OSError if the disk does not take it.
+    format: netCDF 4, compressed and sealed with a `text`, or netCDF 3, ten times smaller where there are
+    many small variables. Raises OSError if the disk does not take it.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     packed = {"zlib": True, "complevel": 2, "shuffle": True}
@@ -252,11 +243,11 @@ def write(dataset: xr.Dataset, path: Path, format: Format = "NETCDF4") -> None:
     os.close(handle)
     try:
         if format == "NETCDF4":
-            dataset = dataset.assign_attrs({SEALED: "a digest follows the file's end"})
+            dataset = dataset.assign_attrs({SEALED: HOW})
         with FILES:
             _to_netcdf(dataset, temporary, format=format, encoding=encoding)
         if format == "NETCDF4":
-            seal(Path(temporary))
+            seal(Path(temporary), text)
         else:
             with open(temporary, "rb") as file:
                 os.fsync(file.fileno())

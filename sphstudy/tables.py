@@ -9,6 +9,9 @@ from rich.table import Table
 from sphstudy.cells import Cell, cells, shown
 from sphstudy.config import headline
 
+LONGEST = 400
+"""Rows of a table that are printed; of more points, only those that are not done."""
+
 
 def console() -> Console:
     """The terminal, or something wide enough for any table. Text in brackets is text, not markup."""
@@ -18,14 +21,18 @@ def console() -> Console:
 
 def print_tables(dataset: xr.Dataset) -> None:
     """A line a point with outcome, headline metrics and cost; a table for each scene, and for each solver
-    with a headline of its own.
+    with a headline of its own. Of very many points only those that are not done.
     """
     groups: dict[tuple, list[Cell]] = {}
-    for cell in cells(dataset):
+    points = int((dataset["configuration"] != "").sum())
+    listed = cells(dataset, without="done" if points > LONGEST else "")
+    for cell in listed[:LONGEST]:
         shown_first = headline(cell.flat["scene.kind"], cell.flat["solve"])
         groups.setdefault((cell.flat["scene"], shown_first), []).append(cell)
     for (_, shown_first), found in groups.items():
         _print_table(dataset, found, shown_first)
+    if (more := points - sum(map(len, groups.values()))) > 0:
+        print(f"{more} more points are not listed")
 
 
 def _print_table(dataset: xr.Dataset, found: list[Cell], shown_first: tuple[str, ...]) -> None:

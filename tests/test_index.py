@@ -6,7 +6,8 @@ import sqlite3
 import numpy as np
 import pytest
 
-from sphstudy.index import Index, Summary, plain
+from sphstudy.index import Index
+from sphstudy.summary import Summary, plain
 
 ONE = Summary("done", {"message": "“m”", "list": [1, 2]}, {"error": (0.1, {"units": "1"})})
 

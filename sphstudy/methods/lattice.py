@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from functools import cache
 
 import numpy as np
 
@@ -18,7 +19,11 @@ def support(config) -> float:
 
 def lattice_neighbours(config) -> int:
     """Neighbours of a particle of a square lattice that lie strictly inside its support."""
-    radius = support(config)
+    return _inside(support(config))
+
+
+@cache
+def _inside(radius: float) -> int:
     reach = np.arange(-math.ceil(radius), math.ceil(radius) + 1)
     distance_squared = reach[:, None] ** 2 + reach[None, :] ** 2
     return int(np.count_nonzero(distance_squared < radius**2 * (1.0 - 1e-12))) - 1

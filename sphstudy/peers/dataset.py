@@ -76,7 +76,7 @@ def dataset(cases: list[Case]) -> xr.Dataset:
         "title": "Plate of the thesis, codes side by side",
         "date_created": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
         **{name: own[name] for name in ("processor", "operating_system", "python_version", "git_state")},
-        "configuration": json.dumps(cases[0].plate.config.as_dict(), sort_keys=True),
+        "configuration": cases[0].plate.config.text,
         "frequency_2d": cases[0].plate.exact.value,
         "frequency_2d_uncertainty": cases[0].plate.exact.error,
     }

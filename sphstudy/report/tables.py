@@ -1,8 +1,8 @@
 """The tables of a report: points, effects of options, error against cost, comparisons, settings."""
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import pandas as pd
@@ -16,6 +16,9 @@ from sphstudy.results import Results
 
 COST = ("cpu_seconds", "steps", "particles")
 """Shown of every point beside the scene's own metrics."""
+
+LONGEST = 2000
+"""Points of a group that are listed: a page with more is a burden to whoever opens it."""
 
 _NUMBER = (int, float)
 
@@ -66,7 +69,7 @@ class Group:
     rows: pd.DataFrame
     configs: list[RunConfig]
 
-    @property
+    @cached_property
     def one_at_a_time(self) -> bool:
         """Whether the block varies one setting at a time."""
         return bool((self.rows["varied"] != "").any())
@@ -100,7 +103,9 @@ def groups(results: Results, rows: pd.DataFrame) -> Iterator[Group]:
 
 
 def points(group: Group) -> Table:
-    """A row for each point: the settings that tell it from others, outcome, headline metrics and cost."""
+    """A row for each point: the settings that tell it from others, outcome, headline metrics and cost. Of
+    very many, the first.
+    """
     metrics = [*group.headline, *(name for name in COST if name in group.results.attributes)]
     told_apart = _told_apart(group)
     columns = [
@@ -110,13 +115,17 @@ def points(group: Group) -> Table:
         columns.append(Column("changed setting", "what differs from the block's first point", False))
     columns += [Column("status", "outcome of the run", False), *map(group.column, metrics)]
     rows = []
-    for (_, point), config in zip(group.rows.iterrows(), group.configs, strict=True):
+    shown = group.rows.head(LONGEST)
+    for (_, point), config in zip(shown.iterrows(), group.configs[:LONGEST], strict=True):
         row = [_setting_cell(config.flat().get(key)) for key in told_apart]
         if group.one_at_a_time:
             row.append(Cell(point["varied"] or "none"))
         row.append(Cell(point["status"], badge=True))
         rows.append([*row, *(group.cell(name, point[name]) for name in metrics)])
-    return Table(f"Points of block {group.block}, scene {group.scene}", columns, rows)
+    caption = f"Points of block {group.block}, scene {group.scene}"
+    if len(group.rows) > LONGEST:
+        caption += f": the first {LONGEST} of {len(group.rows)}, which are all in the study's dataset"
+    return Table(caption, columns, rows)
 
 
 def _told_apart(group: Group) -> dict[str, bool]:
@@ -212,9 +221,7 @@ def common_settings(group: Group) -> list[Setting]:
     """The resolved configuration as far as all points of the group share it."""
     flat = [config.flat() for config in group.configs]
     shared = {
-        key: value
-        for key, value in flat[0].items()
-        if all(json.dumps(other.get(key)) == json.dumps(value) for other in flat)
+        key: value for key, value in flat[0].items() if all(other.get(key) == value for other in flat)
     }
     return [
         Setting(key, text.setting(value), _meaning(group.configs[0], key))

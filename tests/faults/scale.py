@@ -1,10 +1,9 @@
 """What a study of 20 000 points costs: python -m tests.faults.scale 20000 [FOLDER].
 
-The records are copies of a small one under the names of other points, without fields. Prints wall time
-and peak memory of each command, as a user would type it, in a process of its own.
+The records are copies of a small one under the names of other points. Prints wall time and peak memory of
+each command, as a user would type it, in a process of its own.
 """
 
-import json
 import resource
 import shutil
 import subprocess
@@ -17,7 +16,9 @@ import netCDF4
 
 from sphstudy import batch, identity
 from sphstudy.composition import Point, session
+from sphstudy.seal import HOW, SEALED, seal
 from sphstudy.store import Store, write
+from sphstudy.summary import of_record
 
 
 def grid(count: int, folder: str) -> list[str]:
@@ -36,20 +37,24 @@ def grid(count: int, folder: str) -> list[str]:
 
 
 def make(points: list[Point], store: Store) -> None:
-    """Computes the first point, and copies its record, without fields, for all others."""
+    """Computes the first point, and copies its record, fields and all, for all others."""
     with session() as hydra:
         batch.sweep(hydra, points[:1], store, [])
     record = store.read(points[0].config)
     assert record is not None
     with tempfile.TemporaryDirectory() as scratch:
         template = Path(scratch) / "template.nc"
-        write(record[[name for name in record if record[name].ndim == 0]], template, "NETCDF3_64BIT")
+        write(record.assign_attrs({SEALED: HOW}), template, "NETCDF3_64BIT")
         for point in points[1:]:
+            record.attrs["configuration"], record.attrs["key"] = (
+                point.config.text,
+                identity.key(point.config),
+            )
             path = store.record_path(point.config)
             shutil.copy(template, path)
             with netCDF4.Dataset(path, "a") as copy:
-                copy.configuration = json.dumps(point.config.as_dict(), sort_keys=True)
-                copy.key = identity.key(point.config)
+                copy.configuration, copy.key = record.attrs["configuration"], record.attrs["key"]
+            seal(path, of_record(record).text)
 
 
 def timed(label: str, *arguments: str) -> None:

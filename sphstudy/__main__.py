@@ -1,10 +1,11 @@
 """Command line: separates sub-commands and flags from overrides, and says how it ended."""
 
+import contextlib
 import errno
 import importlib
+import os
 import sys
-
-from sphstudy.config import ConfigurationError
+from collections.abc import Iterator
 
 USAGE = """\
 sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids and fracture
@@ -54,7 +55,8 @@ flags
 A run that is already in the results folder is not run again. Each run leaves one netCDF file in
 results/runs, a sweep one labelled dataset in results/sweeps, a study a page in results/reports.
 Exit status: 0 all points done (a diverged point is a result), 1 a point failed or has no record, the disk
-takes no more, or a metric lies outside its accepted interval, 2 wrong input, 130 interrupted.
+takes no more, or a metric lies outside its accepted interval, 2 wrong input, 130 interrupted, 141 nobody
+reads the output any more (`| head`; runs that are finished are kept).
 """
 
 _FLAGS = {
@@ -80,30 +82,38 @@ _COMMANDS = {
 }
 """Where `<command>_command` of each is, imported when it is asked for."""
 
+_INTERRUPTED = "sphstudy: interrupted; finished runs are kept"
 _DISK = (errno.EACCES, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.ENOSPC, errno.EROFS, errno.ESTALE)
 """What a disk may answer to whoever writes to it."""
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Runs the program; returns its exit status."""
-    arguments = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        return _command(arguments)
-    except ConfigurationError as error:
-        for complaint in error.complaints:
-            print(f"sphstudy: {complaint}", file=sys.stderr)
-        return 2
+        status = _answered(list(sys.argv[1:] if arguments is None else arguments))
+        # Now, or an error would show only when the interpreter ends.
+        print(end="", flush=True)
+        return status
+    except KeyboardInterrupt:
+        _complain(_INTERRUPTED)
+        return 130
+    except BrokenPipeError:
+        return 141
+    except SystemExit as error:
+        # What rich makes of a BrokenPipeError.
+        if not isinstance(error.__context__, BrokenPipeError):
+            raise
+        return 141
     except OSError as error:
         if error.errno not in _DISK:
             raise
-        print(f"sphstudy: {error}; finished runs are kept", file=sys.stderr)
+        _complain(f"sphstudy: {error}; finished runs are kept")
         return 1
-    except KeyboardInterrupt:
-        print("sphstudy: interrupted; finished runs are kept", file=sys.stderr)
-        return 130
+    finally:
+        _drop_what_nobody_takes()
 
 
-def _command(arguments: list[str]) -> int:
+def _answered(arguments: list[str]) -> int:
     if {"-h", "--help"} & set(arguments):
         print(USAGE, end="")
         return 0
@@ -112,14 +122,66 @@ def _command(arguments: list[str]) -> int:
 
         print(__version__)
         return 0
-    command = arguments[0] if arguments else ""
-    if command in _COMMANDS:
-        module = importlib.import_module(f"sphstudy.{_COMMANDS[command]}")
-        return getattr(module, f"{command}_command")(arguments[1:])
-    return _run(arguments)
+    with _leaving_at_once():
+        from sphstudy.config import ConfigurationError
+    try:
+        return _command(arguments)
+    except ConfigurationError as error:
+        for complaint in error.complaints:
+            print(f"sphstudy: {complaint}", file=sys.stderr)
+        return 2
+
+
+def _complain(line: str) -> None:
+    with contextlib.suppress(OSError):
+        print(line, file=sys.stderr)
+
+
+@contextlib.contextmanager
+def _leaving_at_once() -> Iterator[None]:
+    """Ctrl-C ends the process there and then while the block imports: libraries make other errors of a
+    KeyboardInterrupt, or tell of it themselves. Whoever has told the process to ignore it is obeyed.
+    """
+    import signal
+
+    def leave(number, frame):
+        # Not by way of sys.stderr, which the process may be writing to.
+        with contextlib.suppress(OSError):
+            os.write(2, f"{_INTERRUPTED}\n".encode())
+        os._exit(130)
+
+    before = signal.getsignal(signal.SIGINT)
+    if before is not signal.default_int_handler:
+        yield
+        return
+    signal.signal(signal.SIGINT, leave)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _drop_what_nobody_takes() -> None:
+    """Output that its reader or its disk refused: Python would try again at its end, and complain."""
+    for stream in filter(None, (sys.stdout, sys.stderr)):
+        try:
+            stream.flush()
+        except OSError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+def _command(arguments: list[str]) -> int:
+    name = arguments[0] if arguments else ""
+    if name not in _COMMANDS:
+        return _run(arguments)
+    with _leaving_at_once():
+        module = importlib.import_module(f"sphstudy.{_COMMANDS[name]}")
+    return getattr(module, f"{name}_command")(arguments[1:])
 
 
 def _run(arguments: list[str]) -> int:
+    from sphstudy.config import ConfigurationError
+
     named = arguments[:1] == ["study"]
     arguments = arguments[named:]
     flags = {_FLAGS[a] for a in arguments if a in _FLAGS}
@@ -132,11 +194,11 @@ def _run(arguments: list[str]) -> int:
     if "dry run" in flags and not named:
         raise ConfigurationError(["--dry-run: goes with study"])
     if named and overrides[:1] == ["speed"]:
-        from sphstudy.speed.command import speed_command
-
+        with _leaving_at_once():
+            from sphstudy.speed.command import speed_command
         return speed_command(overrides[1:], "dry run" in flags)
-    from sphstudy import batch
-
+    with _leaving_at_once():
+        from sphstudy import batch
     force = "force" in flags
     if named:
         return batch.study_command(overrides, force, "dry run" in flags)

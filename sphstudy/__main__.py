@@ -5,7 +5,8 @@ import errno
 import importlib
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
 USAGE = """\
 sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids and fracture
@@ -125,7 +126,10 @@ def _answered(arguments: list[str]) -> int:
     with _leaving_at_once():
         from sphstudy.config import ConfigurationError
     try:
-        return _command(arguments)
+        with _leaving_at_once():
+            work = _work(arguments)
+        with _interruptible():
+            return work()
     except ConfigurationError as error:
         for complaint in error.complaints:
             print(f"sphstudy: {complaint}", file=sys.stderr)
@@ -161,6 +165,34 @@ def _leaving_at_once() -> Iterator[None]:
         signal.signal(signal.SIGINT, before)
 
 
+@contextlib.contextmanager
+def _interruptible() -> Iterator[None]:
+    """Ctrl-C leaves the block as a KeyboardInterrupt, whatever a library has made of it on the way:
+    Hydra makes another error of it while it reads files.
+    """
+    import signal
+
+    came = []
+
+    def interrupt(number, frame):
+        came.append(number)
+        raise KeyboardInterrupt
+
+    before = signal.getsignal(signal.SIGINT)
+    if before is not signal.default_int_handler:
+        yield
+        return
+    signal.signal(signal.SIGINT, interrupt)
+    try:
+        yield
+    except Exception:
+        if came:
+            raise KeyboardInterrupt from None
+        raise
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 def _drop_what_nobody_takes() -> None:
     """Output that its reader or its disk refused: Python would try again at its end, and complain."""
     for stream in filter(None, (sys.stdout, sys.stderr)):
@@ -170,16 +202,16 @@ def _drop_what_nobody_takes() -> None:
             os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
-def _command(arguments: list[str]) -> int:
+def _work(arguments: list[str]) -> Callable[[], int]:
+    """What is to be done, imported. Raises ConfigurationError if the arguments are wrong."""
     name = arguments[0] if arguments else ""
     if name not in _COMMANDS:
-        return _run(arguments)
-    with _leaving_at_once():
-        module = importlib.import_module(f"sphstudy.{_COMMANDS[name]}")
-    return getattr(module, f"{name}_command")(arguments[1:])
+        return _runs(arguments)
+    module = importlib.import_module(f"sphstudy.{_COMMANDS[name]}")
+    return partial(getattr(module, f"{name}_command"), arguments[1:])
 
 
-def _run(arguments: list[str]) -> int:
+def _runs(arguments: list[str]) -> Callable[[], int]:
     from sphstudy.config import ConfigurationError
 
     named = arguments[:1] == ["study"]
@@ -194,15 +226,15 @@ def _run(arguments: list[str]) -> int:
     if "dry run" in flags and not named:
         raise ConfigurationError(["--dry-run: goes with study"])
     if named and overrides[:1] == ["speed"]:
-        with _leaving_at_once():
-            from sphstudy.speed.command import speed_command
-        return speed_command(overrides[1:], "dry run" in flags)
-    with _leaving_at_once():
-        from sphstudy import batch
+        from sphstudy.speed.command import speed_command
+
+        return partial(speed_command, overrides[1:], "dry run" in flags)
+    from sphstudy import batch
+
     force = "force" in flags
     if named:
-        return batch.study_command(overrides, force, "dry run" in flags)
-    return batch.run_command(overrides, many="sweep" in flags, force=force)
+        return partial(batch.study_command, overrides, force, "dry run" in flags)
+    return partial(batch.run_command, overrides, many="sweep" in flags, force=force)
 
 
 if __name__ == "__main__":

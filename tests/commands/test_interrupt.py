@@ -106,6 +106,27 @@ def test_at_any_moment_the_prompt_is_back(tmp_path, entry, moment):
     assert not any("failed" in path.read_text() for path in runs.glob("*.log"))
 
 
+def test_an_interrupt_that_a_library_makes_another_error_of_is_still_one():
+    """As Hydra does, in the few milliseconds in which it reads a file."""
+    program = """
+import signal, sys
+from sphstudy import batch
+from sphstudy.__main__ import main
+
+def run_command(*arguments, **options):
+    try:
+        signal.raise_signal(signal.SIGINT)
+    except KeyboardInterrupt:
+        raise ValueError("cannot be read")
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+batch.run_command = run_command
+sys.exit(main(["h=1.5"]))
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert (ended.returncode, ended.stderr) == (130, f"{LINE}\n")
+
+
 def test_whoever_told_it_to_ignore_interrupts_is_obeyed(tmp_path):
     """As a shell does for what it runs in the background."""
     process = subprocess.Popen(

@@ -106,6 +106,27 @@ def test_at_any_moment_the_prompt_is_back(tmp_path, entry, moment):
     assert not any("failed" in path.read_text() for path in runs.glob("*.log"))
 
 
+def test_an_interrupt_that_a_library_swallows_while_it_is_imported_ends_the_program():
+    program = """
+import signal, sys
+from sphstudy.__main__ import main
+
+class Swallowing:
+    def find_spec(self, name, path, target=None):
+        if name == "sphstudy.batch":
+            try:
+                signal.raise_signal(signal.SIGINT)
+            except KeyboardInterrupt:
+                raise ImportError(name)
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.meta_path.insert(0, Swallowing())
+sys.exit(main(["h=1.5"]))
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert (ended.returncode, ended.stderr) == (130, f"{LINE}\n")
+
+
 def test_an_interrupt_that_a_library_makes_another_error_of_is_still_one():
     """As Hydra does, in the few milliseconds in which it reads a file."""
     program = """

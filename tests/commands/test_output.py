@@ -10,6 +10,8 @@ from sphstudy.record import STATUS
 from sphstudy.store import read
 
 COMMANDS = [["--help"], ["list"], ["describe", "scene", "plate"]]
+BUFFERED = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+"""An environment in which output is written late, as it is for users."""
 SWEEP = ["-m", "scene=plate", "scene.periods=0.1", "n=5", "h=1.5,1.7", "hydra/launcher=basic"]
 
 
@@ -26,7 +28,7 @@ def program(folder, arguments, **streams):
     """The program's exit status, and what it had to complain of."""
     command = [sys.executable, "-m", "sphstudy", *arguments]
     streams = {"stderr": subprocess.PIPE, **streams}
-    ended = subprocess.run(command, cwd=folder, text=True, timeout=120, **streams)
+    ended = subprocess.run(command, cwd=folder, env=BUFFERED, text=True, timeout=120, **streams)
     return ended.returncode, ended.stderr
 
 
@@ -37,7 +39,9 @@ def test_without_a_reader_it_ends_quietly(tmp_path, unread, arguments):
 
 def test_with_a_reader_that_leaves_after_a_line(tmp_path):
     command = [sys.executable, "-m", "sphstudy", "list"]
-    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        command, cwd=tmp_path, env=BUFFERED, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
     assert process.stdout.readline() == b"scene:\n"
     process.stdout.close()
     assert process.stderr.read() == b""

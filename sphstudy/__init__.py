@@ -1,13 +1,12 @@
 """Batch studies with smoothed particle hydrodynamics of elastic solids and fracture."""
 
-from typing import Any
-
 __version__ = "0.1.0"
 __all__ = ["__version__", "open", "run", "sweep"]
 
 
-def __getattr__(name: str) -> Any:
-    # Imported on first use: the command line answers --help without loading any library.
+def __getattr__(name: str):
+    # Imported on first use: the command line answers --help and Ctrl-C without loading any library, which
+    # is why not even typing is imported here.
     if name in ("open", "run", "sweep"):
         from sphstudy import api
 

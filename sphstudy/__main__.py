@@ -1,10 +1,12 @@
 """Command line: separates sub-commands and flags from overrides, and says how it ended."""
 
+import contextlib
 import errno
 import importlib
+import os
 import sys
-
-from sphstudy.config import ConfigurationError
+from collections.abc import Callable, Iterator
+from functools import partial
 
 USAGE = """\
 sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids and fracture
@@ -54,7 +56,8 @@ flags
 A run that is already in the results folder is not run again. Each run leaves one netCDF file in
 results/runs, a sweep one labelled dataset in results/sweeps, a study a page in results/reports.
 Exit status: 0 all points done (a diverged point is a result), 1 a point failed or has no record, the disk
-takes no more, or a metric lies outside its accepted interval, 2 wrong input, 130 interrupted.
+takes no more, or a metric lies outside its accepted interval, 2 wrong input, 130 interrupted, 141 nobody
+reads the output any more (`| head`; runs that are finished are kept).
 """
 
 _FLAGS = {
@@ -80,30 +83,38 @@ _COMMANDS = {
 }
 """Where `<command>_command` of each is, imported when it is asked for."""
 
+_INTERRUPTED = "sphstudy: interrupted; finished runs are kept"
 _DISK = (errno.EACCES, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.ENOSPC, errno.EROFS, errno.ESTALE)
 """What a disk may answer to whoever writes to it."""
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Runs the program; returns its exit status."""
-    arguments = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        return _command(arguments)
-    except ConfigurationError as error:
-        for complaint in error.complaints:
-            print(f"sphstudy: {complaint}", file=sys.stderr)
-        return 2
+        status = _answered(list(sys.argv[1:] if arguments is None else arguments))
+        # Now, or an error would show only when the interpreter ends.
+        print(end="", flush=True)
+        return status
+    except KeyboardInterrupt:
+        _complain(_INTERRUPTED)
+        return 130
+    except BrokenPipeError:
+        return 141
+    except SystemExit as error:
+        # What rich makes of a BrokenPipeError.
+        if not isinstance(error.__context__, BrokenPipeError):
+            raise
+        return 141
     except OSError as error:
         if error.errno not in _DISK:
             raise
-        print(f"sphstudy: {error}; finished runs are kept", file=sys.stderr)
+        _complain(f"sphstudy: {error}; finished runs are kept")
         return 1
-    except KeyboardInterrupt:
-        print("sphstudy: interrupted; finished runs are kept", file=sys.stderr)
-        return 130
+    finally:
+        _drop_what_nobody_takes()
 
 
-def _command(arguments: list[str]) -> int:
+def _answered(arguments: list[str]) -> int:
     if {"-h", "--help"} & set(arguments):
         print(USAGE, end="")
         return 0
@@ -112,14 +123,97 @@ def _command(arguments: list[str]) -> int:
 
         print(__version__)
         return 0
-    command = arguments[0] if arguments else ""
-    if command in _COMMANDS:
-        module = importlib.import_module(f"sphstudy.{_COMMANDS[command]}")
-        return getattr(module, f"{command}_command")(arguments[1:])
-    return _run(arguments)
+    with _leaving_at_once():
+        from sphstudy.config import ConfigurationError
+    try:
+        with _leaving_at_once():
+            work = _work(arguments)
+        with _interruptible():
+            return work()
+    except ConfigurationError as error:
+        for complaint in error.complaints:
+            print(f"sphstudy: {complaint}", file=sys.stderr)
+        return 2
 
 
-def _run(arguments: list[str]) -> int:
+def _complain(line: str) -> None:
+    with contextlib.suppress(OSError):
+        print(line, file=sys.stderr)
+
+
+@contextlib.contextmanager
+def _leaving_at_once() -> Iterator[None]:
+    """Ctrl-C ends the process there and then while the block imports: libraries make other errors of a
+    KeyboardInterrupt, or tell of it themselves. Whoever has told the process to ignore it is obeyed.
+    """
+    import signal
+
+    def leave(number, frame):
+        # Not by way of sys.stderr, which the process may be writing to.
+        with contextlib.suppress(OSError):
+            os.write(2, f"{_INTERRUPTED}\n".encode())
+        os._exit(130)
+
+    before = signal.getsignal(signal.SIGINT)
+    if before is not signal.default_int_handler:
+        yield
+        return
+    signal.signal(signal.SIGINT, leave)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@contextlib.contextmanager
+def _interruptible() -> Iterator[None]:
+    """Ctrl-C leaves the block as a KeyboardInterrupt, whatever a library has made of it on the way:
+    Hydra makes another error of it while it reads files.
+    """
+    import signal
+
+    came = []
+
+    def interrupt(number, frame):
+        came.append(number)
+        raise KeyboardInterrupt
+
+    before = signal.getsignal(signal.SIGINT)
+    if before is not signal.default_int_handler:
+        yield
+        return
+    signal.signal(signal.SIGINT, interrupt)
+    try:
+        yield
+    except Exception:
+        if came:
+            raise KeyboardInterrupt from None
+        raise
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _drop_what_nobody_takes() -> None:
+    """Output that its reader or its disk refused: Python would try again at its end, and complain."""
+    for stream in filter(None, (sys.stdout, sys.stderr)):
+        try:
+            stream.flush()
+        except OSError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+def _work(arguments: list[str]) -> Callable[[], int]:
+    """What is to be done, imported. Raises ConfigurationError if the arguments are wrong."""
+    name = arguments[0] if arguments else ""
+    if name not in _COMMANDS:
+        return _runs(arguments)
+    module = importlib.import_module(f"sphstudy.{_COMMANDS[name]}")
+    return partial(getattr(module, f"{name}_command"), arguments[1:])
+
+
+def _runs(arguments: list[str]) -> Callable[[], int]:
+    from sphstudy.config import ConfigurationError
+
     named = arguments[:1] == ["study"]
     arguments = arguments[named:]
     flags = {_FLAGS[a] for a in arguments if a in _FLAGS}
@@ -134,13 +228,13 @@ def _run(arguments: list[str]) -> int:
     if named and overrides[:1] == ["speed"]:
         from sphstudy.speed.command import speed_command
 
-        return speed_command(overrides[1:], "dry run" in flags)
+        return partial(speed_command, overrides[1:], "dry run" in flags)
     from sphstudy import batch
 
     force = "force" in flags
     if named:
-        return batch.study_command(overrides, force, "dry run" in flags)
-    return batch.run_command(overrides, many="sweep" in flags, force=force)
+        return partial(batch.study_command, overrides, force, "dry run" in flags)
+    return partial(batch.run_command, overrides, many="sweep" in flags, force=force)
 
 
 if __name__ == "__main__":

@@ -4,9 +4,11 @@ Numba's own cache does not notice when a function called from *another* file cha
 folder carries a hash of the sources of all compiled code: after a change it is simply another one.
 """
 
+import errno
 import hashlib
 import os
 import shutil
+import stat
 import tempfile
 import time
 from contextlib import suppress
@@ -36,9 +38,12 @@ def source_hash() -> str:
 
 def _cache_folder() -> Path:
     base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    for root in (Path(base) / "sphstudy", Path(tempfile.gettempdir()) / "sphstudy-cache"):
+    fallback = Path(tempfile.gettempdir()) / f"sphstudy-cache-{os.getuid()}"
+    for root in (Path(base) / "sphstudy", fallback):
         folder = root / source_hash()
         try:
+            if root == fallback:
+                _make_private(root)
             folder.mkdir(parents=True, exist_ok=True)
             os.utime(folder)
         except OSError:
@@ -46,7 +51,21 @@ def _cache_folder() -> Path:
         if os.access(folder, os.W_OK):
             _forget_old_ones(root)
             return folder
-    raise OSError("no writable folder for compiled code: set NUMBA_CACHE_DIR")
+    raise PermissionError(
+        errno.EACCES,
+        f"set NUMBA_CACHE_DIR: no place for compiled code in {base}, nor {fallback}",
+    )
+
+
+def _make_private(root: Path) -> None:
+    """Makes a folder in a place that all users share. Compiled code is pickled, and loading it runs it:
+    PermissionError if the folder is not this user's, or if others may write to it.
+    """
+    with suppress(FileExistsError):
+        root.mkdir(mode=0o700)
+    found = root.lstat()
+    if not stat.S_ISDIR(found.st_mode) or found.st_uid != os.getuid() or found.st_mode & 0o022:
+        raise PermissionError(errno.EACCES, "not this user's alone", str(root))
 
 
 def _forget_old_ones(root: Path) -> None:

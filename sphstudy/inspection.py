@@ -58,8 +58,9 @@ def list_command(arguments: list[str]) -> int:
         module = importlib.import_module(f"sphstudy.metrics.{name}")
         print(f"  {name:{_NAME}s} {_first_line(module)}")
     print("studies:")
-    for name in study.names():
-        print(f"  {name:{_NAME}s} {study.load(name).title}")
+    titles = dict([*((name, study.load(name).title) for name in study.names()), study.SPEED])
+    for name in sorted(titles):
+        print(f"  {name:{_NAME}s} {titles[name]}")
     return 0
 
 

@@ -13,6 +13,7 @@ import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from concurrent.futures import TimeoutError as Overdue
+from multiprocessing import resource_tracker
 from typing import Any
 
 from joblib.externals.loky.process_executor import BrokenProcessPool, ProcessPoolExecutor
@@ -49,6 +50,8 @@ class Pool:
         for job in jobs:
             waiting.put(job)
         deadline = None if time_limit is None else time_limit + GRACE
+        # loky starts it with the first worker, and Python's lets SIGINT through again where it starts it.
+        resource_tracker.ensure_running()
         slots = [
             threading.Thread(target=self._serve, args=(slot, task, waiting, deadline, lost), daemon=True)
             for slot in range(min(self.workers, len(jobs)))

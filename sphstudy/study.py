@@ -29,6 +29,9 @@ from pydantic import TypeAdapter, ValidationError
 from sphstudy.config import ConfigurationError
 from sphstudy.parameters import described, parameters
 
+SPEED = ("speed", "What pairs, terms, a start and a second core cost on this machine")
+"""Name and title of the study that has no file: it measures, and runs no points (sphstudy/speed)."""
+
 Setting = int | float | str | bool | None
 Values = Setting | list[Setting]
 
@@ -97,7 +100,8 @@ def names() -> list[str]:
 def load(name: str) -> Study:
     """The study of that name. Raises ConfigurationError if there is none or its file is wrong."""
     if name not in names():
-        raise ConfigurationError([f"study {name}: there is {', '.join(names())}"])
+        own = f"and {SPEED[0]}, by `sphstudy study {SPEED[0]}` only"
+        raise ConfigurationError([f"study {name}: there is {', '.join(names())}, {own}"])
     path = folder() / f"{name}.yaml"
     try:
         values = yaml.safe_load(path.read_text(encoding="utf-8"))

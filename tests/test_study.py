@@ -3,6 +3,7 @@
 import pytest
 
 from sphstudy import study
+from sphstudy.__main__ import main
 from sphstudy.blocks import StudyPoints, all_points
 from sphstudy.composition import session
 from sphstudy.config import ConfigurationError
@@ -21,6 +22,19 @@ def test_shipped_studies_make_the_points_of_the_thesis():
     assert counts["plate"] == 12 + 3  # and three with artificial stress, for figure 4.1
     assert counts["thesis"] == 12 + 12 + 15 + 1
     assert all(counts.values())
+
+
+def test_the_study_that_has_no_file_is_named_too(capsys):
+    """`speed` measures instead of running points: it is listed, but is none of those that are loaded."""
+    assert main(["study", "speed", "--dry-run"]) == 0
+    capsys.readouterr()
+    assert main(["list"]) == 0
+    listed = capsys.readouterr().out.partition("studies:\n")[2].splitlines()
+    found = [line.split()[0] for line in listed]
+    assert found == sorted([*study.names(), "speed"])
+    for arguments in (["study", "gone"], ["report", "gone"]):
+        assert main(arguments) == 2
+        assert "speed, by `sphstudy study speed` only" in capsys.readouterr().err
 
 
 def test_overrides_replace_settings_of_every_block():

@@ -1,7 +1,10 @@
-"""Ctrl-C during a sweep: the prompt is back in two seconds, what is done is kept, nobody is left."""
+"""Ctrl-C at any moment: the prompt is back in two seconds, what is done is kept, nobody is left.
+
+What Python does before it comes to the program is not the program's, nor are the few milliseconds that
+loading `sphstudy.__main__` takes: moments count from the first import that the program asks for.
+"""
 
 import os
-import random
 import signal
 import subprocess
 import sys
@@ -11,6 +14,26 @@ from pathlib import Path
 import pytest
 
 pytestmark = pytest.mark.slow
+
+LINE = "sphstudy: interrupted; finished runs are kept"
+SCRIPT = """
+import sys
+from sphstudy.__main__ import main
+if __name__ == "__main__":
+    sys.exit(main())
+"""
+"""What an installer writes for the console script."""
+WITNESS = """
+import sys
+from pathlib import Path
+
+def note(event, details):
+    if event == "import" and details[0] == "sphstudy.config":
+        Path("begun").touch()
+
+sys.addaudithook(note)
+"""
+"""A sitecustomize that leaves a file as soon as the program imports something."""
 
 
 def group(leader):
@@ -26,12 +49,16 @@ def group(leader):
     return found
 
 
-def sweep(folder):
+def sweep(folder, entry=("-m", "sphstudy")):
     """Two workers, busy for some seconds."""
     settings = ["scene=plate", "n=5,15", "h=1.5,1.7", "hydra.launcher.n_jobs=2"]
+    (folder / "sitecustomize.py").write_text(WITNESS)
+    (folder / "script").write_text(SCRIPT)
+    paths = [str(folder), *filter(None, [os.environ.get("PYTHONPATH")])]
     return subprocess.Popen(
-        [sys.executable, "-m", "sphstudy", "-m", *settings],
+        [sys.executable, *entry, "-m", *settings],
         cwd=folder,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
         start_new_session=True,
         # Whatever runs the tests in the background may have told its children to ignore Ctrl-C.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
@@ -39,6 +66,14 @@ def sweep(folder):
         stderr=subprocess.PIPE,
         text=True,
     )
+
+
+def wait_for(path):
+    """Until the file is there."""
+    deadline = time.monotonic() + 60
+    while not path.exists():
+        assert time.monotonic() < deadline, f"no {path.name}"
+        time.sleep(0.001)
 
 
 def nobody_is_left(leader):
@@ -49,22 +84,83 @@ def nobody_is_left(leader):
     assert group(leader) == []
 
 
-@pytest.mark.parametrize("moment", range(6))
-def test_at_any_moment_the_prompt_is_back(tmp_path, moment):
-    """From the start of the interpreter on: before all is set up, while workers start, while they run."""
-    process = sweep(tmp_path)
-    time.sleep(random.Random(moment).uniform(0.0, 1.0) * (moment + 1))
+@pytest.mark.parametrize("entry", [("-m", "sphstudy"), ("script",)], ids=["module", "console script"])
+@pytest.mark.parametrize(
+    "moment", [0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0, 5.0]
+)
+def test_at_any_moment_the_prompt_is_back(tmp_path, entry, moment):
+    """While modules are imported, points composed, workers started, runs under way."""
+    process = sweep(tmp_path, entry)
+    wait_for(tmp_path / "begun")
+    time.sleep(moment)
     begun = time.monotonic()
     os.killpg(process.pid, signal.SIGINT)
     _, errors = process.communicate(timeout=30)
     assert time.monotonic() - begun < 2.0
-    assert process.returncode in (130, -signal.SIGINT)
-    # Before the program has begun, it is Python that answers.
-    assert "Traceback" not in errors or "finished runs are kept" not in errors
+    assert process.returncode == 130
+    assert errors.splitlines().count(LINE) == 1
+    assert "Traceback" not in errors
     nobody_is_left(process.pid)
     runs = tmp_path / "results" / "runs"
     assert list(runs.glob(".writing-*")) == []
     assert not any("failed" in path.read_text() for path in runs.glob("*.log"))
+
+
+def test_an_interrupt_that_a_library_swallows_while_it_is_imported_ends_the_program():
+    program = """
+import signal, sys
+from sphstudy.__main__ import main
+
+class Swallowing:
+    def find_spec(self, name, path, target=None):
+        if name == "sphstudy.batch":
+            try:
+                signal.raise_signal(signal.SIGINT)
+            except KeyboardInterrupt:
+                raise ImportError(name)
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.meta_path.insert(0, Swallowing())
+sys.exit(main(["h=1.5"]))
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert (ended.returncode, ended.stderr) == (130, f"{LINE}\n")
+
+
+def test_an_interrupt_that_a_library_makes_another_error_of_is_still_one():
+    """As Hydra does, in the few milliseconds in which it reads a file."""
+    program = """
+import signal, sys
+from sphstudy import batch
+from sphstudy.__main__ import main
+
+def run_command(*arguments, **options):
+    try:
+        signal.raise_signal(signal.SIGINT)
+    except KeyboardInterrupt:
+        raise ValueError("cannot be read")
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+batch.run_command = run_command
+sys.exit(main(["h=1.5"]))
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert (ended.returncode, ended.stderr) == (130, f"{LINE}\n")
+
+
+def test_whoever_told_it_to_ignore_interrupts_is_obeyed(tmp_path):
+    """As a shell does for what it runs in the background."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "sphstudy", "list"],
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN),
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    while process.poll() is None:
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.02)
+    assert "mode1" in process.communicate()[0]
+    assert process.returncode == 0
 
 
 @pytest.mark.parametrize("to_group", [True, False], ids=["terminal", "parent only"])
@@ -80,7 +176,7 @@ def test_interrupt(tmp_path, to_group):
     _, errors = process.communicate(timeout=30)
     assert time.monotonic() - begun < 2.0
     assert process.returncode == 130
-    assert "finished runs are kept" in errors
+    assert LINE in errors
     assert "Traceback" not in errors
     nobody_is_left(process.pid)
     assert not any("failed" in path.read_text() for path in runs.glob("*.log"))

@@ -165,8 +165,14 @@ class Slurm:
                 again.append(job)
             else:
                 outcome = "timeout" if state.name in ("TIMEOUT", "DEADLINE") else "failed"
-                lost(job, outcome, f"SLURM job {job_id}: {state}")
+                lost(job, outcome, f"SLURM job {job_id}: {self._told(job_id, state)}")
         return again
+
+    def _told(self, job_id: str, state: slurm.State) -> str:
+        """How a job ended; if it was for want of memory, in SLURM's words."""
+        # submitit's name for the output of a job's only task.
+        complaint = slurm.memory_complaint(self._folder / f"{job_id}_0_log.out")
+        return f"{state}: {complaint}" if complaint else str(state)
 
     def _not_begun(self, note: Note, at: int, state: slurm.State) -> bool:
         """Whether the job ended while it was at an earlier run, and not because somebody wanted it to."""

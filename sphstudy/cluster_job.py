@@ -89,14 +89,10 @@ def _do(task: Callable[[Any], Any], job: Any, begun_before: bool) -> None:
 
 
 def _listen() -> None:
-    """SIGTERM, before SLURM kills a job, ends it so that its claim is given back at once.
-
-    SIGUSR2, which submitit has SLURM send some time before, needs no answer: there is a checkpoint.
-    """
+    """SIGTERM, before SLURM kills a job, ends it so that its claim is given back at once."""
 
     def leave(number, frame):
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
         raise SystemExit(128 + number)
 
     signal.signal(signal.SIGTERM, leave)
-    signal.signal(signal.SIGUSR2, signal.SIG_IGN)

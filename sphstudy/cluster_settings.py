@@ -81,6 +81,9 @@ def executor(settings: Parameters, folder: Path, name: str, time_limit: float | 
     options = _options(settings)
     if "no-requeue" not in options:
         options["requeue"] = True
+    # submitit asks for a SIGUSR2 before the end of time, which would end a short job that it meets while
+    # Python starts. None is wanted, since there are checkpoints: SIGURG is one that nobody minds.
+    options["signal"] = "URG@1"
     found = submitit.SlurmExecutor(folder)
     found.update_parameters(
         job_name=name,

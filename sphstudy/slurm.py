@@ -6,8 +6,10 @@ no accounting database; `sacct` is asked of older ones, where there is one.
 """
 
 import contextlib
+import re
 import subprocess
 from dataclasses import dataclass
+from pathlib import Path
 
 FINAL = {
     "BOOT_FAIL",
@@ -27,6 +29,10 @@ UNKNOWN = "UNKNOWN"
 
 PATIENCE = 60.0
 """Seconds that a command may take: a controller that is busy answers late."""
+
+_NO_MEMORY = re.compile(
+    r"^(?:srun|slurmstepd)[^:]*: error: (.*(?:oom.kill|out of memory|memory limit).*)$", re.I | re.M
+)
 
 _FORMAT = "JobArrayID:60,State:30,exit_code:20,Reason:120"
 
@@ -75,6 +81,18 @@ def remembered(job: str) -> State:
     # "CANCELLED by 1000", of which the first word is the state.
     words = (said or "").split()
     return State(words[0] if words else UNKNOWN)
+
+
+def memory_complaint(output: Path) -> str:
+    """What SLURM has written into a job's output if it was killed for want of memory, otherwise "".
+
+    The state does not tell: where only the step that `srun` has started is killed, the job has FAILED.
+    """
+    try:
+        found = _NO_MEMORY.search(output.read_text(errors="replace"))
+    except OSError:
+        return ""
+    return found.group(1) if found else ""
 
 
 def cancel(sweep: str) -> None:

@@ -17,10 +17,11 @@ class Killed(BaseException):
 class FakeCluster:
     """`ends`: what becomes of the jobs in the order in which they are submitted, as (runs done before the
     end, State); those beyond are COMPLETED. `refuses`: so many submissions are accepted, then one is not.
+    `says`: output of jobs, by id.
     """
 
-    def __init__(self, ends=(), refuses=None):
-        self.ends, self.refuses = list(ends), refuses
+    def __init__(self, ends=(), refuses=None, says=None):
+        self.ends, self.refuses, self.says = list(ends), refuses, says or {}
         self.parameters, self.arrays, self.known, self.cancelled = {}, [], {}, []
 
     @property
@@ -53,6 +54,8 @@ class FakeCluster:
         for job, batch in zip(jobs, batches, strict=True):
             runs, state = self.ends.pop(0) if self.ends else (len(batch.jobs), DONE)
             self.known[job.job_id] = state
+            if said := self.says.get(job.job_id):
+                (batch.folder / f"{job.job_id}_0_log.out").write_text(said)
             if runs is not None:
                 self.carry_out(batch, runs)
         return jobs

@@ -1,10 +1,15 @@
 # A SLURM cluster on one machine, to be sourced: start_cluster FOLDER, stop_cluster.
 #
-# Controller, munge and two nodes of one core each, all as root, without systemd, cgroups or accounting.
+# Controller, munge and two nodes of one core each, all as root, without systemd and accounting database.
+# Memory is watched as MEMORY says: cgroup (as on most clusters; has to be writable here, version 1) or
+# polling (SLURM adds up what processes take, every second).
 # Each node lives in a UTS namespace of its own: it has another host name than the machine that submits,
 # as on a real cluster, and nothing but the shared folder tells them of one another.
 
 NODES="node1 node2"
+CGROUPS=/sys/fs/cgroup
+[ -n "${MEMORY:-}" ] || { [ -w $CGROUPS/memory/cgroup.procs ] && MEMORY=cgroup || MEMORY=polling; }
+export MEMORY
 
 install_slurm() {
     command -v slurmctld slurmd munged >/dev/null && return
@@ -20,7 +25,7 @@ SlurmctldHost=$(hostname)(127.0.0.1)
 SlurmctldPort=17001
 SlurmUser=root
 AuthType=auth/munge
-AuthInfo=socket=$folder/munge.socket
+AuthInfo=socket=$folder/munge.socket,cred_expire=20
 CredType=cred/munge
 StateSaveLocation=$folder/state
 SlurmctldPidFile=$folder/slurmctld.pid
@@ -29,10 +34,17 @@ SlurmdSpoolDir=$folder/spool-%n
 SlurmdPidFile=$folder/slurmd-%n.pid
 SlurmdLogFile=$folder/slurmd-%n.log
 ProctrackType=proctrack/linuxproc
-TaskPlugin=task/none
+TaskPlugin=$([ $MEMORY = cgroup ] && echo task/cgroup || echo task/none)
 SelectType=select/cons_tres
-SelectTypeParameters=CR_Core
-JobAcctGatherType=jobacct_gather/none
+SelectTypeParameters=CR_Core_Memory
+DefMemPerNode=100
+JobAcctGatherType=jobacct_gather/linux
+JobAcctGatherFrequency=task=1
+$([ $MEMORY = cgroup ] || echo JobAcctGatherParams=OverMemoryKill)
+JobCompType=jobcomp/filetxt
+JobCompLoc=$folder/ended
+PreemptType=preempt/partition_prio
+PreemptMode=REQUEUE
 AccountingStorageType=accounting_storage/none
 MpiDefault=none
 SchedulerParameters=sched_interval=5,batch_sched_delay=0
@@ -42,11 +54,20 @@ ReturnToService=2
 MaxArraySize=$MAX_ARRAY
 MaxJobCount=50000
 END
+    cat >"$folder/cgroup.conf" <<END
+CgroupPlugin=cgroup/v1
+CgroupMountpoint=$CGROUPS
+ConstrainRAMSpace=$([ $MEMORY = cgroup ] && echo yes || echo no)
+END
     for node in $NODES; do
         echo "NodeName=$node NodeHostname=$node NodeAddr=127.0.0.1 Port=$port CPUs=1 RealMemory=4000 State=UNKNOWN"
         port=$((port + 1))
     done >>"$folder/slurm.conf"
-    echo "PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP" >>"$folder/slurm.conf"
+    cat >>"$folder/slurm.conf" <<END
+PartitionName=all Nodes=ALL Default=YES PriorityTier=1 PreemptMode=REQUEUE State=UP
+PartitionName=frail Nodes=ALL PriorityTier=1 PreemptMode=CANCEL State=UP
+PartitionName=urgent Nodes=ALL PriorityTier=2 PreemptMode=OFF State=UP
+END
 }
 
 start_node() {
@@ -65,17 +86,17 @@ start_cluster() {
     slurmctld -f "$SLURM_CONF"
     for node in $NODES; do start_node "$node"; done
     for _ in $(seq 60); do
-        [ "$(sinfo --noheader --Node --format %t 2>/dev/null | grep -c idle)" = 2 ] && return
+        [ "$(sinfo --noheader --Node --partition=all --format=%t 2>/dev/null | grep -c idle)" = 2 ] && return
         sleep 1
     done
     echo "the cluster does not start:" >&2
     sinfo >&2
-    tail -5 "$CLUSTER"/slurm*.log >&2
+    tail -n 5 "$CLUSTER"/slurm*.log >&2
     return 1
 }
 
 stop_cluster() {
-    local pid
+    local pid node
     scancel --quiet --user=root 2>/dev/null || true
     for _ in $(seq 20); do
         [ -z "$(squeue --noheader 2>/dev/null)" ] && break
@@ -87,4 +108,7 @@ stop_cluster() {
         [ -f "$pid" ] && kill "$(cat "$pid")" 2>/dev/null
     done
     sleep 1
+    for node in $NODES; do
+        find $CGROUPS/memory/slurm_"$node" -depth -type d -exec rmdir {} + 2>/dev/null || true
+    done
 }

@@ -44,10 +44,9 @@ def commands(monkeypatch):
     """SLURM's commands are there; signals are as they were after each test."""
     monkeypatch.setattr(cluster_settings.shutil, "which", lambda name: name)
     monkeypatch.setattr(cluster.time, "sleep", lambda seconds: None)
-    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGUSR2)}
+    before = signal.getsignal(signal.SIGTERM)
     yield
-    for number, handler in before.items():
-        signal.signal(number, handler)
+    signal.signal(signal.SIGTERM, before)
 
 
 class Sweep:
@@ -125,7 +124,13 @@ def test_what_sbatch_is_told(sweep):
     assert told["time"] == 8
     assert told["mem"] == "512M"
     assert told["partition"] == "short"
-    assert told["additional_parameters"] == {"account": "physics", "exclusive": True, "requeue": True}
+    # No SIGUSR2, which submitit would ask for: it ends a Python that has not come to ignore it.
+    assert told["additional_parameters"] == {
+        "account": "physics",
+        "exclusive": True,
+        "requeue": True,
+        "signal": "URG@1",
+    }
     assert told["setup"][0] == "export NUMBA_NUM_THREADS=3"
     assert 'export XDG_CACHE_HOME="$cache"' in told["setup"]
     assert told["setup"][-1] == "module load python"
@@ -191,6 +196,14 @@ def test_the_reason_names_the_state(sweep, state):
     outcome, why = sweep(FakeCluster(ends=[(0, State(state))])).run()[0]
     assert outcome == ("timeout" if state == "DEADLINE" else "failed")
     assert state in why
+
+
+def test_want_of_memory_is_told_where_the_state_does_not_tell_it(sweep):
+    # What SLURM 22.05 has reported: the step was killed, so the job has failed.
+    said = "slurmstepd-node1: error: Detected 1 oom-kill event(s) in StepId=1.0.\n"
+    one = sweep(FakeCluster(ends=[(0, State("FAILED", 1 << 8, "NonZeroExitCode"))], says={"1_0": said}))
+    why = "SLURM job 1_0: FAILED (exit status 1): Detected 1 oom-kill event(s) in StepId=1.0."
+    assert one.run() == {0: ("failed", why)}
 
 
 def test_a_controller_that_does_not_answer_is_asked_again(sweep, monkeypatch, capsys):

@@ -14,10 +14,9 @@ from sphstudy.runner import ELSEWHERE
 @pytest.fixture(autouse=True)
 def signals():
     """As they were, after each test."""
-    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGUSR2)}
+    before = signal.getsignal(signal.SIGTERM)
     yield
-    for number, handler in before.items():
-        signal.signal(number, handler)
+    signal.signal(signal.SIGTERM, before)
 
 
 def test_sigterm_ends_the_run_and_says_which_it_was(tmp_path):
@@ -36,12 +35,6 @@ def test_sigterm_ends_the_run_and_says_which_it_was(tmp_path):
         work(batch)
     assert end.value.code == 143
     assert given_back == [0, 1]
-    assert read_note(batch.note_path) == Note(at=1)
-
-
-def test_the_warning_of_the_end_of_time_is_no_end(tmp_path):
-    batch = Batch(tmp_path, 0, lambda job: os.kill(os.getpid(), signal.SIGUSR2), [0, 1])
-    work(batch)
     assert read_note(batch.note_path) == Note(at=1)
 
 

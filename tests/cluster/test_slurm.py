@@ -56,6 +56,26 @@ def test_a_forgotten_job_is_looked_up_where_there_are_accounts(command):
     assert slurm.remembered("2_1").final
 
 
+@pytest.mark.parametrize(
+    "said",
+    [
+        "StepId=1.0 exceeded memory limit (433172480 > 104857600), being killed",
+        "Detected 1 oom-kill event(s) in StepId=1.0. Some of your processes may have been killed",
+    ],
+)
+def test_want_of_memory_is_read_from_the_output(tmp_path, said):
+    path = tmp_path / "output"
+    path.write_text(f"slurm: memory limit\nslurmstepd-node2: error: {said}\nsrun: error: Killed\n")
+    assert slurm.memory_complaint(path) == said
+
+
+def test_other_ends_are_no_want_of_memory(tmp_path):
+    path = tmp_path / "output"
+    assert slurm.memory_complaint(path) == ""
+    path.write_text("error: out of memory\nslurmstepd: error: *** STEP 1.0 CANCELLED DUE TO TIME LIMIT\n")
+    assert slurm.memory_complaint(path) == ""
+
+
 def test_a_sweep_is_cancelled_by_its_name(command):
     asked = command("scancel", "")
     slurm.cancel("sphstudy-1")

@@ -1,8 +1,9 @@
 #!/bin/bash
 # The cluster launcher against a real SLURM, on one Debian machine, as root:
 #
-#   tests/cluster/trial.sh            eight small points of the mode I grid, a few minutes
-#   tests/cluster/trial.sh thesis     the twelve points of the thesis
+#   tests/cluster/trial.sh                     eight small points of the mode I grid, some twelve minutes
+#   tests/cluster/trial.sh thesis              the twelve points of the thesis
+#   tests/cluster/trial.sh small timeout       some of the cases only (they are listed in trial.py)
 #
 # Installs slurm-wlm and munge if need be, starts a cluster of two nodes of one core each in a temporary
 # folder, runs trial.py against it, and takes all of it down again. The transcript goes to stdout.
@@ -18,8 +19,8 @@ MAX_ARRAY=10001
 [ "$(id -u)" = 0 ] || { echo "trial.sh: has to be root, to install and to start SLURM" >&2; exit 2; }
 work=$(mktemp -d /tmp/sphstudy-trial-XXXXXX)
 export PYTHONPATH="$root${PYTHONPATH:+:$PYTHONPATH}"
-# Nodes keep their compiled code here, not where that of others lies.
-export TMPDIR="$work/tmp"
+# Nodes and this machine keep their compiled code here, not where that of others lies: each compiles.
+export TMPDIR="$work/tmp" XDG_CACHE_HOME="$work/cache"
 mkdir "$TMPDIR"
 
 take_down() {
@@ -35,4 +36,4 @@ install_slurm
     export PYTHONPATH="$PYTHONPATH:$work/site"
 }
 start_cluster "$work/cluster"
-"$python" "$here/trial.py" "$work" "${1:-small}"
+"$python" "$here/trial.py" "$work" "${@:-small}"

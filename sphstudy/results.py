@@ -56,11 +56,13 @@ class Results:
     ) -> pd.DataFrame:
         """A metric over h (index) and n (columns), NaN where it is missing.
 
-        Raises Missing if there is not a single value.
+        Raises Missing if there is not a single value, or several in a place.
         """
         chosen = self.select(settings, block)
         if metric not in chosen or chosen[metric].isna().all():
             raise Missing(f"{self.name}: no point of block {block} has {metric}")
+        if chosen.duplicated(["h", "n"]).any():
+            raise Missing(f"{self.name}: block {block} has several points with the same h and n")
         return chosen.pivot(index="h", columns="n", values=metric)
 
     def value(

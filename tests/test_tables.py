@@ -2,8 +2,9 @@
 
 import pytest
 
-from sphstudy import collect, tables
+from sphstudy import collect, identity, tables
 from sphstudy.composition import session
+from sphstudy.record import with_metrics
 from sphstudy.runner import give_up
 from sphstudy.store import Store
 
@@ -16,6 +17,8 @@ def dataset(tmp_path_factory):
     configs = [point.config for point in points]
     store.prepare()
     give_up(configs[0], store, "done", "")
+    without_metrics = with_metrics(store.read(configs[0]), {}, identity.metrics_version(configs[0]))
+    store.keep(configs[0], without_metrics)
     give_up(configs[1], store, "failed", "why")
     return collect.collect(configs, store)[0]
 

@@ -123,10 +123,10 @@ def _answered(arguments: list[str]) -> int:
 
         print(__version__)
         return 0
-    with _leaving_at_once():
+    with _on_interrupt(_leave_at_once):
         from sphstudy.config import ConfigurationError
     try:
-        with _leaving_at_once():
+        with _on_interrupt(_leave_at_once):
             work = _work(arguments)
         with _interruptible():
             return work()
@@ -142,27 +142,29 @@ def _complain(line: str) -> None:
 
 
 @contextlib.contextmanager
-def _leaving_at_once() -> Iterator[None]:
-    """Ctrl-C ends the process there and then while the block imports: libraries make other errors of a
-    KeyboardInterrupt, or tell of it themselves. Whoever has told the process to ignore it is obeyed.
-    """
+def _on_interrupt(handle: Callable[[], None]) -> Iterator[None]:
+    """Ctrl-C calls `handle` while the block works. A process that was told to ignore it obeys."""
     import signal
-
-    def leave(number, frame):
-        # Not by way of sys.stderr, which the process may be writing to.
-        with contextlib.suppress(OSError):
-            os.write(2, f"{_INTERRUPTED}\n".encode())
-        os._exit(130)
 
     before = signal.getsignal(signal.SIGINT)
     if before is not signal.default_int_handler:
         yield
         return
-    signal.signal(signal.SIGINT, leave)
+    signal.signal(signal.SIGINT, lambda number, frame: handle())
     try:
         yield
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+def _leave_at_once() -> None:
+    """While modules are imported: libraries make other errors of a KeyboardInterrupt, or tell of it
+    themselves.
+    """
+    # Not by way of sys.stderr, which the process may be writing to.
+    with contextlib.suppress(OSError):
+        os.write(2, f"{_INTERRUPTED}\n".encode())
+    os._exit(130)
 
 
 @contextlib.contextmanager
@@ -170,27 +172,19 @@ def _interruptible() -> Iterator[None]:
     """Ctrl-C leaves the block as a KeyboardInterrupt, whatever a library has made of it on the way:
     Hydra makes another error of it while it reads files.
     """
-    import signal
-
     came = []
 
-    def interrupt(number, frame):
-        came.append(number)
+    def interrupt() -> None:
+        came.append(True)
         raise KeyboardInterrupt
 
-    before = signal.getsignal(signal.SIGINT)
-    if before is not signal.default_int_handler:
-        yield
-        return
-    signal.signal(signal.SIGINT, interrupt)
-    try:
-        yield
-    except Exception:
-        if came:
-            raise KeyboardInterrupt from None
-        raise
-    finally:
-        signal.signal(signal.SIGINT, before)
+    with _on_interrupt(interrupt):
+        try:
+            yield
+        except Exception:
+            if came:
+                raise KeyboardInterrupt from None
+            raise
 
 
 def _drop_what_nobody_takes() -> None:

@@ -86,7 +86,7 @@ for _option in _LLVM_OPTIONS:
 
 # IEEE arithmetic, nothing rearranged: into whichever caller a function is compiled, from the cache or
 # not, for one thread or several, for wide vectors or narrow ones, it computes the same bits. Inlined,
-# which gains more time than rearrangement did: LLVM does not see through calls with so many arrays.
+# which gains more time than rearrangement did.
 _OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "forceinline": True}
 # Without the wrappers through which Python would call it, a function compiles in half the time.
 _INNER: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}

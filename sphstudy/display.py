@@ -4,7 +4,7 @@ import os
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
 from rich.console import Console, Group
@@ -76,7 +76,9 @@ class _Board:
     def news(self) -> Iterator[str]:
         """Looks at all runs; a plain line for each that has just finished."""
         # The folder once, not every file that might be there: twice a second, and there may be 20 000.
-        there = set(os.listdir(self.folder))
+        there: set[str] = set()
+        with suppress(OSError):
+            there.update(os.listdir(self.folder))
         for follower in self.followers:
             if follower.finished or not (follower.note or follower.leaves(there)):
                 continue

@@ -13,7 +13,7 @@ from rich.table import Table
 from sphstudy import identity
 from sphstudy.claim import is_alive
 from sphstudy.config import ConfigurationError, validate
-from sphstudy.store import Store
+from sphstudy.store import CHECKPOINT, CLAIM, Store
 from sphstudy.tables import console
 
 FORGOTTEN = 30 * 24 * 3600.0
@@ -83,13 +83,9 @@ def stale(store: Store) -> Iterator[Stale]:
             yield Stale(path, reason, path.stat().st_size)
         else:
             stems.add(path.stem)
-    alive = {
-        path.name.removesuffix(".running.json")
-        for path in store.runs.glob("*.running.json")
-        if is_alive(path)
-    }
+    alive = {path.name.removesuffix(CLAIM) for path in store.runs.glob(f"*{CLAIM}") if is_alive(path)}
     for suffix, reason in (
-        (".running.json", "a claim whose process is gone"),
+        (CLAIM, "a claim whose process is gone"),
         (".log", "a log of a run without a record"),
     ):
         for path in sorted(store.runs.glob(f"*{suffix}")):
@@ -97,7 +93,7 @@ def stale(store: Store) -> Iterator[Stale]:
             if stem not in alive and stem not in stems:
                 yield Stale(path, reason, path.stat().st_size)
     # Whoever was interrupted, failed or timed out goes on from it: only age says that nobody will.
-    for path in sorted(store.runs.glob("*.checkpoint")):
+    for path in sorted(store.runs.glob(f"*{CHECKPOINT}")):
         found = path.stat()
         if path.stem not in alive and time.time() - found.st_mtime > FORGOTTEN:
             yield Stale(path, "a checkpoint that nobody went on from for a month", found.st_size)

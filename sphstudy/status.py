@@ -16,10 +16,8 @@ from sphstudy.composition import session
 from sphstudy.config import ConfigurationError
 from sphstudy.display import duration
 from sphstudy.planning import plan
-from sphstudy.store import Store
+from sphstudy.store import CHECKPOINT, CLAIM, Store
 from sphstudy.tables import LONGEST, console
-
-_SUFFIX = ".running.json"
 
 
 @dataclass(frozen=True)
@@ -67,8 +65,8 @@ def _of_folder(arguments: list[str]) -> list[Line]:
     if not store.runs.is_dir():
         raise ConfigurationError([f"results={folder}: there are no runs"])
     stems = {path.stem for path in store.runs.glob("*.nc") if not path.name.startswith(".")}
-    claimed = {path.name.removesuffix(_SUFFIX) for path in store.runs.glob(f"*{_SUFFIX}")}
-    kept = {path.stem for path in store.runs.glob("*.checkpoint")}
+    claimed = {path.name.removesuffix(CLAIM) for path in store.runs.glob(f"*{CLAIM}")}
+    kept = {path.stem for path in store.runs.glob(f"*{CHECKPOINT}")}
     # What is set aside while it is looked at is listed below.
     lines = [
         line
@@ -85,7 +83,7 @@ def _of_folder(arguments: list[str]) -> list[Line]:
 
 def _line(store: Store, stem: Path, claimed: bool, kept: bool) -> Line | None:
     """A run with a claim, a checkpoint, or a record; None if it has none of them that can be read."""
-    claim = stem.with_name(stem.name + _SUFFIX)
+    claim = stem.with_name(stem.name + CLAIM)
     alive = claimed and is_alive(claim)
     if not alive and (summary := store.summary_at(stem.with_name(stem.name + ".nc"))):
         # A claim that is lost beside a record: its process was killed when all was done.

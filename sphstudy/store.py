@@ -46,7 +46,8 @@ _NEEDED = ("title", "message", "key", "configuration", "numerics_version", "date
 _HEAD = 1_000_000
 """Bytes that a file may take beside its numbers."""
 
-_CLAIM, _CHECKPOINT = ".running.json", ".checkpoint"
+CLAIM, CHECKPOINT = ".running.json", ".checkpoint"
+"""Endings of files beside a record that stand for a run in progress, or interrupted."""
 
 REUSED = ("done", "diverged")
 """Outcomes that are results: such a point is not computed again."""
@@ -77,11 +78,11 @@ class Store:
 
     def claim_path(self, config: RunConfig) -> Path:
         """The file that exists while the run is being computed."""
-        return self.record_path(config).with_suffix(_CLAIM)
+        return self.record_path(config).with_suffix(CLAIM)
 
     def checkpoint_path(self, config: RunConfig) -> Path:
         """The last checkpoint of a run that takes longer than a checkpoint's interval."""
-        return self.record_path(config).with_suffix(_CHECKPOINT)
+        return self.record_path(config).with_suffix(CHECKPOINT)
 
     def log_path(self, config: RunConfig) -> Path:
         """What became of the run, try after try."""
@@ -136,13 +137,13 @@ class Store:
     def status(self, config: RunConfig) -> str:
         """Outcome of a run; without a record "running", "interrupted" or "missing"."""
         path = self.record_path(config)
-        claim = path.with_suffix(_CLAIM)
+        claim = path.with_suffix(CLAIM)
         if is_alive(claim):
             return "running"
         summary = self.summary_at(path)
         if summary is not None:
             return summary.status
-        lost = claim.exists() or path.with_suffix(_CHECKPOINT).exists()
+        lost = claim.exists() or path.with_suffix(CHECKPOINT).exists()
         return "interrupted" if lost else "missing"
 
 

@@ -39,9 +39,12 @@ def of_text(text: str) -> Summary:
     try:
         status, attributes, values = json.loads(first)
         own = _described(second)
-        return Summary(status, attributes, {name: (value, own[name]) for name, value in values.items()})
+        numbers = {name: (value, own[name]) for name, value in values.items()}
     except (TypeError, LookupError, AttributeError) as error:
         raise ValueError(f"not a summary ({error})") from None
+    if status not in STATUS[1:]:
+        raise ValueError(f"outcome {status}")
+    return Summary(status, attributes, numbers)
 
 
 def of_record(run: xr.Dataset) -> Summary:

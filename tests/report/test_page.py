@@ -8,7 +8,8 @@ import pytest
 from sphstudy import compare
 from sphstudy.compare import OUTSIDE, WITHIN, Comparison
 from sphstudy.composition import session
-from sphstudy.report import page, text
+from sphstudy.report import page, tables, text
+from sphstudy.results import Missing
 from tests.report import sample
 
 GRID = "Points of block grid, scene plate"
@@ -77,6 +78,19 @@ def test_every_number_of_the_points_is_that_of_the_table(read, found):
             assert said == text.metric(name, point[name], found.attributes[name]["units"])
             assert float(order) == point[name] or math.isnan(float(order)) == math.isnan(point[name])
     assert {row[3][0] for row in rows} == {"−3.04", "−12.0", "1.25×10⁻⁵", "–"}
+
+
+def test_of_very_many_points_the_first_are_listed(found, monkeypatch):
+    monkeypatch.setattr(tables, "LONGEST", 4)
+    group = next(group for group in tables.groups(found, found.table) if group.block == "grid")
+    whole = tables.points(group)
+    assert len(whole.rows) == 4
+    assert whole.caption == f"{GRID}: the first 4 of 6, which are all in the study's dataset"
+
+
+def test_several_points_in_a_place_are_no_grid(found):
+    with pytest.raises(Missing, match="several points with the same h and n"):
+        found.grid("frequency_error", block="options")
 
 
 def test_points_that_are_not_done_stand_there_with_what_went_wrong(read):

@@ -171,8 +171,10 @@ class Session:
             yield f"{line}: of Hydra's own keys, hydra/launcher and hydra.launcher.* can be set"
         elif override.is_sweep_override() and not override.is_discrete_sweep():
             yield f"{line}: write single values, or a range"
-        elif _spanned([override]) > MOST_POINTS:
+        elif (count := _spanned([override])) > MOST_POINTS:
             yield f"{line}: more than {MOST_POINTS:,} values"
+        elif count == 0:
+            yield f"{line}: stands for no values"
         elif "." not in key and (options := self._options(key)):
             many = override.is_sweep_override()
             for value in override.sweep_iterator() if many else [override.value()]:
@@ -282,11 +284,14 @@ def _shortened(text: str) -> str:
 
 def _spanned(overrides: list[Override]) -> int:
     """How many points overrides span, counted no further than too many."""
-    return math.prod(
-        sum(1 for _ in itertools.islice(o.sweep_iterator(), MOST_POINTS + 1))
-        for o in overrides
-        if o.is_sweep_override()
-    )
+    return math.prod(_values(o) for o in overrides if o.is_sweep_override())
+
+
+def _values(override: Override) -> int:
+    try:
+        return sum(1 for _ in itertools.islice(override.sweep_iterator(), MOST_POINTS + 1))
+    except (HydraException, ValueError, ArithmeticError):
+        return 0  # range() with steps of zero or ends that are none, glob() of what has no names
 
 
 def _too_many(threads: int, config: RunConfig) -> str | None:

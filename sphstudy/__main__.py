@@ -128,7 +128,7 @@ def _answered(arguments: list[str]) -> int:
     try:
         with _on_interrupt(_leave_at_once):
             work = _work(arguments)
-        with _interruptible():
+        with _interruptible(), _collecting_rarely():
             return work()
     except ConfigurationError as error:
         for complaint in error.complaints:
@@ -185,6 +185,21 @@ def _interruptible() -> Iterator[None]:
             if came:
                 raise KeyboardInterrupt from None
             raise
+
+
+@contextlib.contextmanager
+def _collecting_rarely() -> Iterator[None]:
+    """Points, records and what is told of them are many and stay: looking for garbage among them time and
+    again takes as long as making them.
+    """
+    import gc
+
+    before = gc.get_threshold()
+    gc.set_threshold(500_000, *before[1:])
+    try:
+        yield
+    finally:
+        gc.set_threshold(*before)
 
 
 def _drop_what_nobody_takes() -> None:

@@ -2,7 +2,6 @@
 
 import dataclasses
 import difflib
-import gc
 import itertools
 import math
 import os
@@ -254,15 +253,8 @@ def launcher_overrides(arguments: list[str]) -> list[str]:
 def session() -> Iterator[Session]:
     """A Session on the project's configuration folder."""
     folder = str(configuration_folder().resolve())
-    # Points, records and what is told of them are many and stay: looking for garbage among them again and
-    # again takes as long as making them.
-    before = gc.get_threshold()
-    gc.set_threshold(500_000, *before[1:])
-    try:
-        with initialize_config_dir(folder, version_base="1.3", job_name="sphstudy"):
-            yield Session()
-    finally:
-        gc.set_threshold(*before)
+    with initialize_config_dir(folder, version_base="1.3", job_name="sphstudy"):
+        yield Session()
 
 
 def taken_execution(composed: dict[str, Any]) -> Execution:

@@ -10,9 +10,12 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import netCDF4
+import yaml
 
 from sphstudy import batch, identity
 from sphstudy.composition import Point, session
@@ -57,14 +60,32 @@ def make(points: list[Point], store: Store) -> None:
             seal(path, of_record(record).text)
 
 
-def timed(label: str, *arguments: str) -> None:
+def timed(label: str, *arguments: str, program: Sequence[str] = ("-m", "sphstudy")) -> None:
     """Runs a command of the program and prints what it took."""
     begun = time.perf_counter()
-    command = [sys.executable, "-m", "sphstudy", *arguments]
+    command = [sys.executable, *program, *arguments]
     result = subprocess.run(command, capture_output=True, text=True)
     memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
     last = (result.stdout.strip().splitlines() or [result.stderr])[-1]
     print(f"{label}: {time.perf_counter() - begun:.1f} s, at most {memory:.0f} MiB so far; {last[:90]}")
+
+
+def report(count: int, folder: str) -> None:
+    """The same of a report on a study of these points, in a process of its own."""
+    with tempfile.TemporaryDirectory() as scratch:
+        block: dict[str, Any] = {}
+        for setting in grid(count, folder):
+            key, _, value = setting.partition("=")
+            if key != "results":
+                block[key] = value.split(",") if "," in value else value
+        study = {"title": "Very many points", "blocks": {"grid": block}}
+        (Path(scratch) / "many.yaml").write_text(yaml.safe_dump(study))
+        program = (
+            "import sys; from pathlib import Path; from sphstudy import __main__, study;"
+            f"study.folder = lambda: Path({scratch!r});"
+            "sys.exit(__main__.main(sys.argv[1:]))"
+        )
+        timed("report", "report", "many", f"results={folder}", program=["-c", program])
 
 
 def main(count: int, folder: str) -> None:
@@ -83,6 +104,7 @@ def main(count: int, folder: str) -> None:
     store.index.path.unlink(missing_ok=True)
     timed("combined dataset, first time", "-m", *overrides)
     timed("combined dataset, again", "-m", *overrides)
+    report(count, folder)
     timed("prune", "prune", f"results={folder}")
 
 

@@ -190,10 +190,13 @@ def _interruptible() -> Iterator[None]:
 @contextlib.contextmanager
 def _collecting_rarely() -> Iterator[None]:
     """Points, records and what is told of them are many and stay: looking for garbage among them time and
-    again takes as long as making them.
+    again takes as long as making them. At the end of the process it is not looked for at all.
     """
+    import atexit
     import gc
 
+    atexit.unregister(gc.freeze)
+    atexit.register(gc.freeze)
     before = gc.get_threshold()
     gc.set_threshold(500_000, *before[1:])
     try:

@@ -106,6 +106,9 @@ def _locked(folder: Path) -> Iterator[None]:
 
 def holder(path: Path) -> Holder | None:
     """What a claim says, or None if there is none or it cannot be read."""
+    # Most runs have none, and to ask is faster than to fail.
+    if not os.path.exists(path):
+        return None
     try:
         return Holder(**json.loads(path.read_text()))
     except (OSError, ValueError, TypeError):

@@ -1,6 +1,7 @@
 """From records to one labelled dataset."""
 
 import hashlib
+import itertools
 import json
 import math
 from pathlib import Path
@@ -36,13 +37,13 @@ def dimensions(configs: list[RunConfig]) -> dict[str, list[Any]]:
 
 
 def _swept(flat: list[dict[str, Any]]) -> dict[str, list[Any]]:
-    keys = {key: None for point in flat for key in point}
+    keys = dict.fromkeys(itertools.chain.from_iterable(flat))
     swept = {}
     for key in keys:
-        first = flat[0].get(key)
-        if key not in ALWAYS and all(point.get(key) == first for point in flat):
+        column = [point.get(key) for point in flat]
+        if key not in ALWAYS and column.count(column[0]) == len(column):
             continue
-        values = list({hashable(point.get(key)): None for point in flat})
+        values = list(dict.fromkeys(map(hashable, column)))
         if len(values) > 1 or key in ALWAYS:
             numbers = all(isinstance(v, int | float) and not isinstance(v, bool) for v in values)
             swept[key] = sorted(values) if numbers else values
@@ -54,6 +55,8 @@ def _without_consequences(
 ) -> dict[str, list[Any]]:
     """Leaves out what follows from a choice of scene, method or solve: it varies only along with it."""
     choices = [key for key in ("scene", "method", "solve") if key in swept]
+    if not choices:
+        return swept
     kept = dict(swept)
     for key in swept:
         if key in choices or key in ALWAYS:
@@ -114,23 +117,24 @@ def rows(
     found: list[dict[str, Any]] = []
     attributes: dict[str, dict[str, Any]] = {}
     for config in configs:
-        summary = _current(config, store)
+        path = store.record_path(config)
+        summary = _current(config, path, store)
         row: dict[str, Any] = {
             "status": store.status(config) if summary is None else summary.status,
-            "record": store.record_path(config).name,
+            "record": path.name,
             **{key: "" if summary is None else summary.attributes[key] for key in ORIGIN},
         }
-        for name, (value, described) in ({} if summary is None else summary.numbers).items():
-            row[name] = value
-            attributes[name] = described
+        if summary is not None:
+            row |= summary.numbers
+            attributes |= summary.described
         found.append(row)
     store.index.flush()
     return found, attributes
 
 
-def _current(config: RunConfig, store: Store) -> Summary | None:
-    """The summary of a run with metrics of today's version."""
-    summary = store.summary(config)
+def _current(config: RunConfig, path: Path, store: Store) -> Summary | None:
+    """The summary of a run, whose record has this path, with metrics of today's version."""
+    summary = store.summary_at(path)
     if summary is None or summary.status != "done":
         return summary
     if summary.attributes["metrics_version"] != identity.metrics_version(config):

@@ -59,7 +59,7 @@ class _Follower:
         if summary is None:
             return "unreadable"
         seconds = summary.numbers.get("cpu_seconds")
-        cpu = f", {seconds[0]:.1f} s of CPU" if seconds else ""
+        cpu = f", {seconds:.1f} s of CPU" if seconds is not None else ""
         message = summary.attributes["message"]
         return f"{summary.status}{cpu}" + (f" ({message})" if message else "")
 

@@ -8,7 +8,7 @@ scene wants measured and shown belongs to neither: it changes no number.
 import ast
 import hashlib
 import json
-from functools import lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 from sphstudy.config import RunConfig, scene_module
@@ -38,12 +38,12 @@ def metrics_version(config: RunConfig) -> str:
 
 def key(config: RunConfig) -> str:
     """Hash of everything that determines the numbers of a run, 16 hexadecimal digits."""
-    return _key(config, numerics_version(config))
+    return _key(config.text, numerics_version(config))
 
 
 @lru_cache(maxsize=100_000)
-def _key(config: RunConfig, version: str) -> str:
-    text = f"[{config.text}, {json.dumps(version)}]"
+def _key(configuration: str, version: str) -> str:
+    text = f"[{configuration}, {json.dumps(version)}]"
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
@@ -65,11 +65,18 @@ def _closure(modules: tuple[str, ...]) -> set[Path]:
         if path in found:
             continue
         found.add(path)
-        for node in ast.walk(ast.parse(path.read_text())):
-            if isinstance(node, ast.ImportFrom) and (module := node.module or "").startswith("sphstudy"):
-                parent = module.removeprefix("sphstudy").lstrip(".")
-                names = [parent, *(f"{parent}.{alias.name}".lstrip(".") for alias in node.names)]
-                waiting += [p for name in names if (p := _path(name))]
+        waiting += _imported(path)
+    return found
+
+
+@cache
+def _imported(path: Path) -> list[Path]:
+    found: list[Path] = []
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom) and (module := node.module or "").startswith("sphstudy"):
+            parent = module.removeprefix("sphstudy").lstrip(".")
+            names = [parent, *(f"{parent}.{alias.name}".lstrip(".") for alias in node.names)]
+            found += [p for name in names if (p := _path(name))]
     return found
 
 
@@ -78,6 +85,7 @@ def _path(module: str) -> Path | None:
     return path if path.is_file() else None
 
 
+@cache
 def _code(path: Path) -> str:
     tree = ast.parse(path.read_text())
     for node in ast.walk(tree):

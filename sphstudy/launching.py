@@ -13,7 +13,6 @@ from typing import Any, Protocol
 from sphstudy.claim import is_alive
 from sphstudy.composition import Launcher, Point
 from sphstudy.planning import Planned
-from sphstudy.pool import Pool
 from sphstudy.runner import compute, give_up, job
 from sphstudy.store import Store
 
@@ -120,6 +119,8 @@ class Launching:
             for p in pending:
                 self._compute(p.point)
         else:
+            from sphstudy.pool import Pool
+
             self._by(Pool(self._workers), pending)
 
     def _by(self, workers: Workers, pending: list[Planned]) -> None:

@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.optimize import nnls
 
 from sphstudy import identity
 from sphstudy.config import RunConfig, method_module, scene_module, solver_module, validate
@@ -142,6 +141,9 @@ class _Alike:
         """CPU time of a run with these settings and this work (s); NaN if there is none to learn from but
         that of the record `without`.
         """
+        # Takes long to import, and where nothing is to be run, nothing is predicted.
+        from scipy.optimize import nnls
+
         others = self._names != without
         if not others.any():
             return math.nan
@@ -185,7 +187,7 @@ def _measurements(store: Store, paths: list[Path]) -> Iterable[Measurement]:
         try:
             config = validate(json.loads(summary.attributes["configuration"]))
             steps, particles, seconds = (
-                summary.numbers[name][0] for name in ("steps", "particles", "cpu_seconds")
+                summary.numbers[name] for name in ("steps", "particles", "cpu_seconds")
             )
             foreign = summary.attributes["processor"] != here or (
                 summary.attributes["numerics_version"] != identity.numerics_version(config)

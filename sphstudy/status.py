@@ -87,7 +87,7 @@ def _line(store: Store, stem: Path, claimed: bool, kept: bool) -> Line | None:
     alive = claimed and is_alive(claim)
     if not alive and (summary := store.summary_at(stem.with_name(stem.name + ".nc"))):
         # A claim that is lost beside a record: its process was killed when all was done.
-        seconds = summary.numbers.get("cpu_seconds", (float("nan"), {}))[0]
+        seconds = summary.numbers.get("cpu_seconds", float("nan"))
         return Line(stem.name, summary.status, seconds, summary.attributes["message"])
     if alive or claimed or kept:
         told = _told(holder(claim), alive) if claimed else "it goes on from its checkpoint"

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from pydantic_core import from_json
 
 from sphstudy.record import STATUS
 
@@ -16,20 +17,20 @@ GROUPS = ("metric", "cost")
 
 @dataclass(frozen=True)
 class Summary:
-    """Outcome, global attributes, and each metric and cost with its own attributes (units, long_name, …),
-    which summaries share: not to be changed.
+    """Outcome, global attributes, metrics and cost by name, and the attributes of each of these (units,
+    long_name, …), which summaries share: not to be changed.
     """
 
     status: str
     attributes: dict[str, Any]
-    numbers: dict[str, tuple[float, dict[str, Any]]]
+    numbers: dict[str, float]
+    described: dict[str, dict[str, Any]]
 
     @property
     def text(self) -> str:
         """As two lines of JSON."""
-        values = {name: value for name, (value, _) in self.numbers.items()}
-        described = {name: own for name, (_, own) in self.numbers.items()}
-        return json.dumps([self.status, self.attributes, values]) + "\n" + json.dumps(described)
+        own = json.dumps([self.status, self.attributes, self.numbers])
+        return f"{own}\n{json.dumps(self.described)}"
 
 
 def of_text(text: str) -> Summary:
@@ -37,14 +38,15 @@ def of_text(text: str) -> Summary:
     # The second line is the same of nearly all records, and read once.
     first, _, second = text.partition("\n")
     try:
-        status, attributes, values = json.loads(first)
-        own = _described(second)
-        numbers = {name: (value, own[name]) for name, value in values.items()}
-    except (TypeError, LookupError, AttributeError) as error:
+        status, attributes, numbers = from_json(first)
+        described = _described(second)
+        if numbers.keys() != described.keys():
+            raise ValueError("numbers without a description, or the other way round")
+    except (TypeError, AttributeError) as error:
         raise ValueError(f"not a summary ({error})") from None
     if status not in STATUS[1:]:
         raise ValueError(f"outcome {status}")
-    return Summary(status, attributes, numbers)
+    return Summary(status, attributes, numbers, described)
 
 
 def of_record(run: xr.Dataset) -> Summary:
@@ -52,12 +54,21 @@ def of_record(run: xr.Dataset) -> Summary:
     code = int(run["status"])
     if not 0 < code < len(STATUS):
         raise ValueError(f"outcome {code}")
-    numbers = {
-        str(name): (float(v.values), {key: plain(own) for key, own in v.attrs.items()})
+    told = {
+        str(name): v
         for name, v in run.data_vars.items()
         if v.ndim == 0 and v.attrs.get("group") in GROUPS
     }
-    return Summary(STATUS[code], {name: plain(value) for name, value in run.attrs.items()}, numbers)
+    return Summary(
+        STATUS[code],
+        _plain(run.attrs),
+        {name: float(v.values) for name, v in told.items()},
+        {name: _plain(v.attrs) for name, v in told.items()},
+    )
+
+
+def _plain(attributes: dict[Any, Any]) -> dict[str, Any]:
+    return {str(name): plain(value) for name, value in attributes.items()}
 
 
 def plain(value: Any) -> Any:

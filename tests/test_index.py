@@ -9,7 +9,7 @@ import pytest
 from sphstudy.index import Index
 from sphstudy.summary import Summary, plain
 
-ONE = Summary("done", {"message": "“m”", "list": [1, 2]}, {"error": (0.1, {"units": "1"})})
+ONE = Summary("done", {"message": "“m”", "list": [1, 2]}, {"error": 0.1}, {"error": {"units": "1"}})
 
 
 @pytest.fixture
@@ -34,10 +34,10 @@ def test_a_file_written_at_another_time_or_of_another_size_is_unknown(path, stam
 
 
 def test_numbers_that_are_none_come_back_so(path):
-    numbers = {"error": (math.nan, {}), "rate": (math.inf, {})}
-    found = kept(path, Summary("done", {}, numbers)).get("a.nc", (1, 2))
-    assert math.isnan(found.numbers["error"][0])
-    assert found.numbers["rate"][0] == math.inf
+    numbers = {"error": math.nan, "rate": math.inf}
+    found = kept(path, Summary("done", {}, numbers, {name: {} for name in numbers})).get("a.nc", (1, 2))
+    assert math.isnan(found.numbers["error"])
+    assert found.numbers["rate"] == math.inf
 
 
 def test_a_damaged_database_is_done_without_and_begun_anew(path):

@@ -29,7 +29,18 @@ def test_a_summary_is_its_text(run):
 
 
 @pytest.mark.parametrize(
-    "text", ["", "[]", "{}", '["done", {}]', '["done", {}, {"a": 1}]\n{}', "null\n1"]
+    "text",
+    [
+        "",
+        "[]",
+        "{}",
+        '["done", {}]',
+        '["done", {}, {"a": 1}]\n{}',
+        '["done", {}, {}]\n{"a": {}}',
+        '["done", {}, []]\n{}',
+        '["done", {}, {}]\n[]',
+        "null\n1",
+    ],
 )
 def test_what_is_no_summary_is_refused(text):
     with pytest.raises(ValueError, match=r"."):
@@ -47,7 +58,7 @@ def test_the_end_of_a_record_says_what_the_record_says(run, tmp_path):
 def test_the_summary_is_what_is_looked_at(run, tmp_path):
     """Not the netCDF file before it, which takes a hundred times longer to open."""
     path = tmp_path / "x-a.nc"
-    other = Summary("failed", {**run.attrs}, {})
+    other = Summary("failed", {**run.attrs}, {}, {})
     write(run, path, text=other.text)
     assert summarised(path) == other
 

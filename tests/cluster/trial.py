@@ -48,7 +48,15 @@ class Trial:
         begun = time.monotonic()
         with open(self.folder / "said", "w+") as said:
             command = [sys.executable, "-m", "sphstudy", *given]
-            process = subprocess.Popen(command, cwd=self.folder, stdout=said, stderr=said, text=True)
+            process = subprocess.Popen(
+                command,
+                cwd=self.folder,
+                # Whatever runs this in the background may have told its children to ignore Ctrl-C.
+                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+                stdout=said,
+                stderr=said,
+                text=True,
+            )
             try:
                 if meanwhile is not None:
                     meanwhile(process, self.folder / name / "runs")

@@ -1,7 +1,7 @@
 #!/bin/bash
 # The cluster launcher against a real SLURM, on one Debian machine, as root:
 #
-#   tests/cluster/trial.sh                     eight small points of the mode I grid, some twelve minutes
+#   tests/cluster/trial.sh                     eight small points of the mode I grid, some nine minutes
 #   tests/cluster/trial.sh thesis              the twelve points of the thesis
 #   tests/cluster/trial.sh small timeout       some of the cases only (they are listed in trial.py)
 #

@@ -8,6 +8,8 @@ import sys
 from collections.abc import Callable, Iterator
 from functools import partial
 
+from sphstudy.interrupt import interruptible, on_interrupt
+
 USAGE = """\
 sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids and fracture
 
@@ -123,12 +125,12 @@ def _answered(arguments: list[str]) -> int:
 
         print(__version__)
         return 0
-    with _on_interrupt(_leave_at_once):
+    with on_interrupt(_leave_at_once):
         from sphstudy.config import ConfigurationError
     try:
-        with _on_interrupt(_leave_at_once):
+        with on_interrupt(_leave_at_once):
             work = _work(arguments)
-        with _interruptible(), _collecting_rarely():
+        with interruptible(), _collecting_rarely():
             return work()
     except ConfigurationError as error:
         for complaint in error.complaints:
@@ -141,22 +143,6 @@ def _complain(line: str) -> None:
         print(line, file=sys.stderr)
 
 
-@contextlib.contextmanager
-def _on_interrupt(handle: Callable[[], None]) -> Iterator[None]:
-    """Ctrl-C calls `handle` while the block works. A process that was told to ignore it obeys."""
-    import signal
-
-    before = signal.getsignal(signal.SIGINT)
-    if before is not signal.default_int_handler:
-        yield
-        return
-    signal.signal(signal.SIGINT, lambda number, frame: handle())
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
 def _leave_at_once() -> None:
     """While modules are imported: libraries make other errors of a KeyboardInterrupt, or tell of it
     themselves.
@@ -165,26 +151,6 @@ def _leave_at_once() -> None:
     with contextlib.suppress(OSError):
         os.write(2, f"{_INTERRUPTED}\n".encode())
     os._exit(130)
-
-
-@contextlib.contextmanager
-def _interruptible() -> Iterator[None]:
-    """Ctrl-C leaves the block as a KeyboardInterrupt, whatever a library has made of it on the way:
-    Hydra makes another error of it while it reads files.
-    """
-    came = []
-
-    def interrupt() -> None:
-        came.append(True)
-        raise KeyboardInterrupt
-
-    with _on_interrupt(interrupt):
-        try:
-            yield
-        except Exception:
-            if came:
-                raise KeyboardInterrupt from None
-            raise
 
 
 @contextlib.contextmanager

@@ -16,6 +16,7 @@ from sphstudy.compile_timer import CompileTimer
 from sphstudy.config import RunConfig, method_module, scene_module, solver_module, validate
 from sphstudy.execution import Execution
 from sphstudy.guard import Log, memory_limited, warnings_to
+from sphstudy.interrupt import interruptible
 from sphstudy.metrics.metric import Metric, measure
 from sphstudy.provenance import provenance
 from sphstudy.store import Store
@@ -46,7 +47,7 @@ def compute(config: RunConfig, store: Store, execution: Execution) -> str:
         log = Log(store.log_path(config))
         log.say(f"begun, numerics {identity.numerics_version(config)}, results {store.folder}")
         try:
-            with warnings_to(log), memory_limited(execution.memory_limit):
+            with warnings_to(log), memory_limited(execution.memory_limit), interruptible(insisting=True):
                 run = _solved(config, claim, keeper, execution)
         except TimedOut as error:
             run = record.without_result("timeout", str(error), _attributes(config))

@@ -1,6 +1,8 @@
 """One point: whatever happens becomes a record with the reason, and nobody computes it twice."""
 
+import contextlib
 import os
+import signal
 import warnings
 from dataclasses import replace
 
@@ -66,6 +68,25 @@ def test_an_error_becomes_a_record_with_the_traceback_in_the_log(point, store, s
     log = store.log_path(point.config).read_text()
     assert "Traceback" in log
     assert "in fails" in log
+
+
+def test_what_a_compiler_makes_of_an_interrupt_is_no_result(point, store, solver):
+    """llvmlite drops the KeyboardInterrupt, and misses what it was about to do."""
+
+    def fails(*_):
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        raise RuntimeError("no compiled object yet")
+
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    solver.deeds[5] = fails
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            compute(point.config, store, point.execution)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert store.status(point.config) == "missing"
+    assert "failed" not in store.log_path(point.config).read_text()
 
 
 def test_a_run_ends_by_itself_when_its_time_is_over(point, store):

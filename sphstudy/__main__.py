@@ -130,7 +130,7 @@ def _answered(arguments: list[str]) -> int:
     try:
         with on_interrupt(_leave_at_once):
             work = _work(arguments)
-        with interruptible(), _collecting_rarely():
+        with on_interrupt(_leave_if_compiling), interruptible(), _collecting_rarely():
             return work()
     except ConfigurationError as error:
         for complaint in error.complaints:
@@ -147,10 +147,20 @@ def _leave_at_once() -> None:
     """While modules are imported: libraries make other errors of a KeyboardInterrupt, or tell of it
     themselves.
     """
-    # Not by way of sys.stderr, which the process may be writing to.
+    # Not by way of sys.stderr, which the process may be writing to. A display may have hidden the cursor.
+    shown = "\n\x1b[?25h" if os.isatty(2) and os.environ.get("TERM", "dumb") != "dumb" else ""
     with contextlib.suppress(OSError):
-        os.write(2, f"{_INTERRUPTED}\n".encode())
+        os.write(2, f"{shown}{_INTERRUPTED}\n".encode())
     os._exit(130)
+
+
+def _leave_if_compiling() -> None:
+    """LLVM, interrupted, may drop the KeyboardInterrupt and say so, or leave behind what crashes as it is
+    tidied up.
+    """
+    lock = sys.modules.get("numba.core.compiler_lock")
+    if lock is not None and lock.global_compiler_lock.is_locked():
+        _leave_at_once()
 
 
 @contextlib.contextmanager

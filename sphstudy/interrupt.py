@@ -5,32 +5,35 @@ import signal
 import threading
 from collections.abc import Callable, Iterator
 from types import FrameType
+from typing import Any
 
 AGAIN = 0.5
 """Seconds after which a library that has dropped an interrupt meets the next."""
 
 
 class _Handler:
-    """What is to be done about Ctrl-C, known as this program's."""
+    """What is to be done about Ctrl-C, and then. Known as this program's."""
 
-    def __init__(self, handle: Callable[[], None]):
-        self._handle = handle
+    def __init__(self, handle: Callable[[], None], then: Callable[[int, FrameType | None], Any]):
+        self._handle, self._then = handle, then
 
     def __call__(self, number: int, frame: FrameType | None) -> None:
         self._handle()
+        self._then(number, frame)
 
 
 @contextlib.contextmanager
 def on_interrupt(handle: Callable[[], None]) -> Iterator[None]:
-    """Ctrl-C calls `handle` while the block works. A process that was told to ignore it, or to do
-    something else about it, obeys; and of the threads of a process only the main one hears of it.
+    """Ctrl-C calls `handle` while the block works, before it becomes a KeyboardInterrupt. A process that
+    was told to ignore it, or to do something else about it, obeys; and of the threads of a process only
+    the main one hears of it.
     """
     before = signal.getsignal(signal.SIGINT)
-    usual = before is signal.default_int_handler or isinstance(before, _Handler)
-    if not usual or threading.current_thread() is not threading.main_thread():
+    ours = before is signal.default_int_handler or isinstance(before, _Handler)
+    if not (ours and callable(before)) or threading.current_thread() is not threading.main_thread():
         yield
         return
-    signal.signal(signal.SIGINT, _Handler(handle))
+    signal.signal(signal.SIGINT, _Handler(handle, before))
     try:
         yield
     finally:
@@ -46,17 +49,16 @@ def interruptible(insisting: bool = False) -> Iterator[None]:
     """
     came, left, main = threading.Event(), threading.Event(), threading.main_thread()
 
-    def interrupt() -> None:
+    def note() -> None:
         if insisting and not came.is_set():
             threading.Thread(target=insist, daemon=True).start()
         came.set()
-        raise KeyboardInterrupt
 
     def insist() -> None:
         while not left.wait(AGAIN):
             signal.pthread_kill(main.ident or 0, signal.SIGINT)
 
-    with on_interrupt(interrupt):
+    with on_interrupt(note):
         try:
             yield
         except Exception:

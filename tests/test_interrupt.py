@@ -64,13 +64,13 @@ def test_unless_asked_for_it_comes_once():
         time.sleep(3 * AGAIN)
 
 
-def test_the_inner_of_two_blocks_decides():
+def test_of_two_blocks_both_hear_of_it_the_inner_first():
     came = []
     with on_interrupt(lambda: came.append("outer")):
         with on_interrupt(lambda: came.append("inner")):
-            signal.raise_signal(signal.SIGINT)
-        signal.raise_signal(signal.SIGINT)
-    assert came == ["inner", "outer"]
+            dropped()
+        dropped()
+    assert came == ["inner", "outer", "outer"]
 
 
 @pytest.mark.parametrize("told", [signal.SIG_IGN, lambda number, frame: None])

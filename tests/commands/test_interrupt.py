@@ -49,16 +49,19 @@ def group(leader):
     return found
 
 
-def sweep(folder, entry=("-m", "sphstudy")):
-    """Two workers, busy for some seconds."""
-    settings = ["scene=plate", "n=5,15", "h=1.5,1.7", "hydra.launcher.n_jobs=2"]
+SWEEP = ("-m", "scene=plate", "n=5,15", "h=1.5,1.7", "hydra.launcher.n_jobs=2")
+"""Two workers, busy for some seconds."""
+
+
+def start(folder, entry=("-m", "sphstudy"), settings=SWEEP, **environment):
+    """The program, in a session of its own."""
     (folder / "sitecustomize.py").write_text(WITNESS)
     (folder / "script").write_text(SCRIPT)
     paths = [str(folder), *filter(None, [os.environ.get("PYTHONPATH")])]
     return subprocess.Popen(
-        [sys.executable, *entry, "-m", *settings],
+        [sys.executable, *entry, *settings],
         cwd=folder,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(paths), **environment},
         start_new_session=True,
         # Whatever runs the tests in the background may have told its children to ignore Ctrl-C.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
@@ -84,26 +87,42 @@ def nobody_is_left(leader):
     assert group(leader) == []
 
 
-@pytest.mark.parametrize("entry", [("-m", "sphstudy"), ("script",)], ids=["module", "console script"])
-@pytest.mark.parametrize(
-    "moment", [0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0, 5.0]
-)
-def test_at_any_moment_the_prompt_is_back(tmp_path, entry, moment):
-    """While modules are imported, points composed, workers started, runs under way."""
-    process = sweep(tmp_path, entry)
-    wait_for(tmp_path / "begun")
-    time.sleep(moment)
+def leaves(process, runs, interrupt=os.killpg):
+    """At Ctrl-C, as it should."""
     begun = time.monotonic()
-    os.killpg(process.pid, signal.SIGINT)
+    interrupt(process.pid, signal.SIGINT)
     _, errors = process.communicate(timeout=30)
     assert time.monotonic() - begun < 2.0
     assert process.returncode == 130
     assert errors.splitlines().count(LINE) == 1
     assert "Traceback" not in errors
     nobody_is_left(process.pid)
-    runs = tmp_path / "results" / "runs"
     assert list(runs.glob(".writing-*")) == []
     assert not any("failed" in path.read_text() for path in runs.glob("*.log"))
+
+
+@pytest.mark.parametrize("entry", [("-m", "sphstudy"), ("script",)], ids=["module", "console script"])
+@pytest.mark.parametrize(
+    "moment", [0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0, 5.0]
+)
+def test_at_any_moment_the_prompt_is_back(tmp_path, entry, moment):
+    """While modules are imported, points composed, workers started, runs under way."""
+    process = start(tmp_path, entry)
+    wait_for(tmp_path / "begun")
+    time.sleep(moment)
+    leaves(process, tmp_path / "results" / "runs")
+
+
+@pytest.mark.parametrize("moment", [2.0, 3.0, 4.0, 5.0, 6.0, 7.0])
+def test_while_a_single_run_compiles_too(tmp_path, moment):
+    """In this process. LLVM drops the KeyboardInterrupt, or crashes as what it was at is tidied up."""
+    single = ("scene=plate", "n=5")
+    process = start(tmp_path, settings=single, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
+    wait_for(tmp_path / "begun")
+    time.sleep(moment)
+    runs = tmp_path / "results" / "runs"
+    leaves(process, runs)
+    assert list(runs.glob("*.nc")) == [], "it was over before"
 
 
 def test_an_interrupt_that_a_library_swallows_while_it_is_imported_ends_the_program():
@@ -165,19 +184,10 @@ def test_whoever_told_it_to_ignore_interrupts_is_obeyed(tmp_path):
 
 @pytest.mark.parametrize("to_group", [True, False], ids=["terminal", "parent only"])
 def test_interrupt(tmp_path, to_group):
-    process = sweep(tmp_path)
+    process = start(tmp_path)
     marker = time.monotonic() + 120
     runs = tmp_path / "results" / "runs"
     while not any('"step": 0' not in p.read_text() for p in runs.glob("*.running.json")):
         assert time.monotonic() < marker, "no run got under way"
         time.sleep(0.2)
-    begun = time.monotonic()
-    (os.killpg if to_group else os.kill)(process.pid, signal.SIGINT)
-    _, errors = process.communicate(timeout=30)
-    assert time.monotonic() - begun < 2.0
-    assert process.returncode == 130
-    assert LINE in errors
-    assert "Traceback" not in errors
-    nobody_is_left(process.pid)
-    assert not any("failed" in path.read_text() for path in runs.glob("*.log"))
-    assert list(runs.glob(".writing-*")) == []
+    leaves(process, runs, os.killpg if to_group else os.kill)

@@ -36,7 +36,7 @@ def study_command(arguments: list[str], force: bool, dry_run: bool) -> int:
     With `dry_run` only tells what would run and what it would cost. Returns the exit status.
     """
     if not arguments or "=" in arguments[0]:
-        raise ConfigurationError([f"study: name one of {', '.join(study.names())}"])
+        raise ConfigurationError([f"study: name one of {', '.join([*study.names(), study.SPEED[0]])}"])
     name, overrides = arguments[0], arguments[1:]
     settings = [a for a in overrides if a not in launcher_overrides(overrides)]
     with session() as hydra:

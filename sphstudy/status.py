@@ -9,7 +9,6 @@ from pathlib import Path
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
-from sphstudy import study
 from sphstudy.blocks import all_points
 from sphstudy.claim import Holder, holder, is_alive
 from sphstudy.composition import session
@@ -106,8 +105,6 @@ def _told(note: Holder | None, alive: bool) -> str:
 
 def _of_study(name: str, overrides: list[str]) -> tuple[list[Line], str]:
     """The points of a study; how many are done, how fast, and how long the rest will take."""
-    if name not in study.names():
-        raise ConfigurationError([f"study {name}: there is {', '.join(study.names())}"])
     with session() as hydra:
         points, folder, _ = all_points(hydra, name, overrides)
         store = Store(folder)

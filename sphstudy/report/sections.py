@@ -41,7 +41,9 @@ class NotDone:
 
 @dataclass(frozen=True)
 class Section:
-    """A study on the page. stored: whether any of its own points is, or there are none."""
+    """A study on the page. stored: whether any of its own points is, or there are none. not_named: how
+    many points are not done beside those listed.
+    """
 
     name: str
     title: str
@@ -52,6 +54,7 @@ class Section:
     overviews: list[Table]
     judged: list[Table]
     not_done: list[NotDone]
+    not_named: int
 
 
 @dataclass(frozen=True)
@@ -79,6 +82,8 @@ def section(results: Results, folder: Path) -> Section:
     rows = results.table[results.table["study"] == results.name]
     stored = bool((rows["status"] != "missing").any()) if len(rows) else True
     definition = results.definition
+    undone = rows[rows["status"] != "done"]
+    named = undone.head(tables.LONGEST)
     return Section(
         name=results.name,
         title=definition.title,
@@ -88,7 +93,8 @@ def section(results: Results, folder: Path) -> Section:
         groups=[_tables(group) for group in tables.groups(results, rows)] if stored else [],
         overviews=[*cheapest.tables(results), *time_steps.tables(results)] if stored else [],
         judged=_judged(results) if stored and definition.judged else [],
-        not_done=[_not_done(row) for _, row in rows[rows["status"] != "done"].iterrows()],
+        not_done=[_not_done(row) for _, row in named.iterrows()],
+        not_named=len(undone) - len(named),
     )
 
 

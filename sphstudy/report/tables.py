@@ -18,7 +18,7 @@ COST = ("cpu_seconds", "steps", "particles")
 """Shown of every point beside the scene's own metrics."""
 
 LONGEST = 2000
-"""Points of a group that are listed: a page with more is a burden to whoever opens it."""
+"""Points that are listed of a group, or as not done: a page with more is a burden to whoever opens it."""
 
 _NUMBER = (int, float)
 

@@ -88,6 +88,15 @@ def test_of_very_many_points_the_first_are_listed(found, monkeypatch):
     assert whole.caption == f"{GRID}: the first 4 of 6, which are all in the study's dataset"
 
 
+def test_of_many_points_that_are_not_done_the_first_are_named(found, tmp_path, monkeypatch):
+    """In the sample there are four."""
+    monkeypatch.setattr(tables, "LONGEST", 3)
+    cut = shown(sample.Reader(sample.write_page(found, tmp_path / "report")))
+    assert "missing grid: plate h=1.5 n=21" in cut
+    assert "missing options: plate h=1.5 n=9" not in cut
+    assert "and 1 more, which are all in the study's dataset" in cut
+
+
 def test_several_points_in_a_place_are_no_grid(found):
     with pytest.raises(Missing, match="several points with the same h and n"):
         found.grid("frequency_error", block="options")
@@ -98,6 +107,7 @@ def test_points_that_are_not_done_stand_there_with_what_went_wrong(read):
     assert f"failed grid: plate h=1.3 n=21: {sample.MESSAGE}" in shown(read)
     assert "missing grid: plate h=1.5 n=21" in shown(read)
     assert "missing options: plate h=1.5 n=9, scene.rho=7750.0000001" in shown(read)
+    assert "more, which are all" not in shown(read)
 
 
 def test_effects_are_differences_from_the_block_without_change(read):

@@ -144,8 +144,8 @@ def _complain(line: str) -> None:
 
 
 def _leave_at_once() -> None:
-    """While modules are imported: libraries make other errors of a KeyboardInterrupt, or tell of it
-    themselves.
+    """While modules are imported, or functions compiled: libraries make other errors of a
+    KeyboardInterrupt, or tell of it themselves.
     """
     # Not by way of sys.stderr, which the process may be writing to. A display may have hidden the cursor.
     shown = "\n\x1b[?25h" if os.isatty(2) and os.environ.get("TERM", "dumb") != "dumb" else ""

@@ -28,9 +28,9 @@ def on_interrupt(handle: Callable[[], None]) -> Iterator[None]:
     was told to ignore it, or to do something else about it, obeys; and of the threads of a process only
     the main one hears of it.
     """
-    before = signal.getsignal(signal.SIGINT)
+    before: Any = signal.getsignal(signal.SIGINT)
     ours = before is signal.default_int_handler or isinstance(before, _Handler)
-    if not (ours and callable(before)) or threading.current_thread() is not threading.main_thread():
+    if not ours or threading.current_thread() is not threading.main_thread():
         yield
         return
     signal.signal(signal.SIGINT, _Handler(handle, before))
@@ -47,12 +47,14 @@ def interruptible(insisting: bool = False) -> Iterator[None]:
 
     insisting: it comes again until the block is left. llvmlite, while it compiles, drops what is raised.
     """
-    came, left, main = threading.Event(), threading.Event(), threading.main_thread()
+    # A list, not an event: another interrupt may come while this one is noted, and wait for the lock.
+    came: list[bool] = []
+    left, main = threading.Event(), threading.main_thread()
 
     def note() -> None:
-        if insisting and not came.is_set():
+        came.append(True)
+        if insisting and len(came) == 1:
             threading.Thread(target=insist, daemon=True).start()
-        came.set()
 
     def insist() -> None:
         while not left.wait(AGAIN):
@@ -62,7 +64,7 @@ def interruptible(insisting: bool = False) -> Iterator[None]:
         try:
             yield
         except Exception:
-            if came.is_set():
+            if came:
                 raise KeyboardInterrupt from None
             raise
         finally:

@@ -1,5 +1,6 @@
 """Ctrl-C that libraries drop or make another error of."""
 
+import contextlib
 import signal
 import threading
 import time
@@ -51,17 +52,31 @@ def test_one_that_was_dropped_comes_again_and_again():
     assert time.monotonic() - begun < 5
 
 
+def wait():
+    """As long as it takes several interrupts to come."""
+    end = time.monotonic() + 3 * AGAIN
+    while time.monotonic() < end:
+        with contextlib.suppress(KeyboardInterrupt):
+            time.sleep(0.1)
+
+
 def test_none_comes_after_the_block_is_left():
-    with pytest.raises(KeyboardInterrupt), interruptible(insisting=True):
-        signal.raise_signal(signal.SIGINT)
-    time.sleep(3 * AGAIN)
+    came = []
+    with on_interrupt(lambda: came.append(1)):
+        with pytest.raises(KeyboardInterrupt), interruptible(insisting=True):
+            signal.raise_signal(signal.SIGINT)
+        wait()
+    assert came == [1]
 
 
-def test_unless_asked_for_it_comes_once():
+@pytest.mark.parametrize("insisting", [False, True])
+def test_unless_asked_for_it_comes_once(insisting):
     """Whoever ends jobs elsewhere because of it needs time for that."""
-    with interruptible():
+    came = []
+    with on_interrupt(lambda: came.append(1)), interruptible(insisting):
         dropped()
-        time.sleep(3 * AGAIN)
+        wait()
+    assert (len(came) > 1) == insisting
 
 
 def test_of_two_blocks_both_hear_of_it_the_inner_first():

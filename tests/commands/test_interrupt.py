@@ -87,7 +87,7 @@ def nobody_is_left(leader):
     assert group(leader) == []
 
 
-def leaves(process, runs, interrupt=os.killpg):
+def leaves(process, interrupt=os.killpg):
     """At Ctrl-C, as it should."""
     begun = time.monotonic()
     interrupt(process.pid, signal.SIGINT)
@@ -97,8 +97,12 @@ def leaves(process, runs, interrupt=os.killpg):
     assert errors.splitlines().count(LINE) == 1
     assert "Traceback" not in errors
     nobody_is_left(process.pid)
-    assert list(runs.glob(".writing-*")) == []
-    assert not any("failed" in path.read_text() for path in runs.glob("*.log"))
+
+
+def spoilt(runs):
+    """Files that are half written, and logs of runs that are said to have failed."""
+    failed = [path for path in runs.glob("*.log") if "failed" in path.read_text()]
+    return [*runs.glob(".writing-*"), *failed]
 
 
 @pytest.mark.parametrize("entry", [("-m", "sphstudy"), ("script",)], ids=["module", "console script"])
@@ -110,7 +114,8 @@ def test_at_any_moment_the_prompt_is_back(tmp_path, entry, moment):
     process = start(tmp_path, entry)
     wait_for(tmp_path / "begun")
     time.sleep(moment)
-    leaves(process, tmp_path / "results" / "runs")
+    leaves(process)
+    assert spoilt(tmp_path / "results" / "runs") == []
 
 
 @pytest.mark.parametrize("moment", [2.0, 3.0, 4.0, 5.0, 6.0, 7.0])
@@ -120,8 +125,9 @@ def test_while_a_single_run_compiles_too(tmp_path, moment):
     process = start(tmp_path, settings=single, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
     wait_for(tmp_path / "begun")
     time.sleep(moment)
+    leaves(process)
     runs = tmp_path / "results" / "runs"
-    leaves(process, runs)
+    assert spoilt(runs) == []
     assert list(runs.glob("*.nc")) == [], "it was over before"
 
 
@@ -167,6 +173,41 @@ sys.exit(main(["h=1.5"]))
     assert (ended.returncode, ended.stderr) == (130, f"{LINE}\n")
 
 
+@pytest.mark.parametrize("terminal", [False, True])
+def test_while_numba_compiles_nothing_is_raised_but_the_program_left(terminal):
+    """A display of the runs has hidden the cursor of a terminal."""
+    program = """
+import signal, sys
+from numba.core.compiler_lock import global_compiler_lock
+from sphstudy import batch
+from sphstudy.__main__ import main
+
+def run_command(*arguments, **options):
+    with global_compiler_lock:
+        try:
+            signal.raise_signal(signal.SIGINT)
+        finally:
+            print("raised")
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+batch.run_command = run_command
+sys.exit(main(["h=1.5"]))
+"""
+    ours, theirs = os.openpty() if terminal else os.pipe()
+    ended = subprocess.run(
+        [sys.executable, "-c", program],
+        env={**os.environ, "TERM": "xterm"},
+        stdout=subprocess.PIPE,
+        stderr=theirs,
+        timeout=60,
+    )
+    os.close(theirs)
+    said = os.read(ours, 1000).decode().replace("\r\n", "\n")
+    os.close(ours)
+    assert (ended.returncode, ended.stdout) == (130, b"")
+    assert said == ("\n\x1b[?25h" if terminal else "") + f"{LINE}\n"
+
+
 def test_whoever_told_it_to_ignore_interrupts_is_obeyed(tmp_path):
     """As a shell does for what it runs in the background."""
     process = subprocess.Popen(
@@ -190,4 +231,5 @@ def test_interrupt(tmp_path, to_group):
     while not any('"step": 0' not in p.read_text() for p in runs.glob("*.running.json")):
         assert time.monotonic() < marker, "no run got under way"
         time.sleep(0.2)
-    leaves(process, runs, os.killpg if to_group else os.kill)
+    leaves(process, os.killpg if to_group else os.kill)
+    assert spoilt(runs) == []

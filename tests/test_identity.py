@@ -1,11 +1,10 @@
 """The key of a run: what changes it and what does not."""
 
-import textwrap
-
 import pytest
 
 from sphstudy import identity
 from sphstudy.composition import session
+from sphstudy.numerics import version
 
 
 @pytest.fixture(scope="module")
@@ -38,26 +37,19 @@ def test_where_it_is_stored_and_how_it_is_written_do_not(config_of):
     assert identity.key(config_of("h=1.5000000000000002")) == key
 
 
-def test_versions_cover_what_is_imported_and_nothing_else(config_of):
-    modules = ("scenes.plate", "methods.updated_lagrangian", "solve.explicit")
-    files = {path.name for path in identity._closure(modules)}
-    assert {"plate.py", "problem.py", "beam.py", "explicit.py", "heun.py", "pair_sums.py"} <= files
-    assert not {"williams.py", "fracture.py", "collect.py", "total_lagrangian.py", "newton.py"} & files
-    assert identity.numerics_version(config_of("scene=plate")) != identity.numerics_version(config_of())
+def test_the_version_of_metrics_covers_what_measures_and_nothing_else(config_of):
+    files = {path.stem for path in identity._measuring(identity.PACKAGE / "metrics" / "oscillation.py")}
+    assert "beam" in files
+    assert "williams" not in files
+    plate, crack = config_of("scene=plate"), config_of()
+    assert identity.metrics_version(plate) != identity.metrics_version(crack)
+    assert identity.metrics_version(plate) == identity.metrics_version(config_of("scene=plate", "n=11"))
 
 
-def test_versions_ignore_comments_docstrings_and_what_is_measured_but_not_code(tmp_path):
-    before = tmp_path / "before.py"
-    before.write_text('"""Doc."""\nMETRICS = ("one",)\ndef f(x):\n    """More."""\n    return x + 1\n')
-    same = tmp_path / "same.py"
-    same.write_text(
-        textwrap.dedent('''
-        # a comment
-        def f(x):
-            """Other words."""
-            return x + 1  # and why
-        ''')
-    )
-    other = tmp_path / "other.py"
-    other.write_text("def f(x):\n    return x + 2\n")
-    assert identity._code(before) == identity._code(same) != identity._code(other)
+def test_all_runs_of_unchanged_sources_have_the_number_as_their_version(config_of):
+    number = config_of("scene=plate"), config_of("scene=plate", "method=tl"), config_of()
+    assert {identity.numerics_version(config) for config in number} == {str(_number())}
+
+
+def _number() -> int:
+    return version._recorded()[0]

@@ -1,0 +1,1 @@
+"""How a problem is computed: operators, methods, solvers; arrays in, arrays out."""

@@ -126,7 +126,7 @@ def _answered(arguments: list[str]) -> int:
         print(__version__)
         return 0
     with on_interrupt(_leave_at_once):
-        from sphstudy.config import ConfigurationError
+        from sphstudy.errors import ConfigurationError
     try:
         with on_interrupt(_leave_at_once):
             work = _work(arguments)
@@ -200,7 +200,7 @@ def _work(arguments: list[str]) -> Callable[[], int]:
 
 
 def _runs(arguments: list[str]) -> Callable[[], int]:
-    from sphstudy.config import ConfigurationError
+    from sphstudy.errors import ConfigurationError
 
     named = arguments[:1] == ["study"]
     arguments = arguments[named:]

@@ -13,14 +13,14 @@ from rich.table import Table
 from sphstudy import precision, study
 from sphstudy.cells import cells
 from sphstudy.composition import Session, session
-from sphstudy.config import ConfigurationError
+from sphstudy.console import console
 from sphstudy.convergence import with_uncertainty
+from sphstudy.errors import ConfigurationError
 from sphstudy.precision import Choice
 from sphstudy.prediction import prospect, rates
-from sphstudy.report.text import setting
 from sphstudy.richardson import Extrapolation, extrapolate
 from sphstudy.store import Store, read_dataset
-from sphstudy.tables import console, number
+from sphstudy.text import number, setting
 
 _FILTERS = ("method", "solve")
 _OPTIONS = ("scene", "error", "study", "metric", "results", *_FILTERS)

@@ -8,8 +8,8 @@ import xarray as xr
 from sphstudy import collect, review, study
 from sphstudy.blocks import all_points
 from sphstudy.composition import Point, Session, launcher_overrides, session
-from sphstudy.config import ConfigurationError
 from sphstudy.display import display
+from sphstudy.errors import ConfigurationError
 from sphstudy.launching import Launching, workers_of
 from sphstudy.planning import kept, plan, prediction, print_plan
 from sphstudy.record import STATUS

@@ -2,7 +2,7 @@
 
 from sphstudy import study
 from sphstudy.composition import Point, Session
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 
 
 class StudyPoints:

@@ -23,7 +23,8 @@ from sphstudy import slurm
 from sphstudy.claim import is_alive
 from sphstudy.cluster_job import STOPPED, Batch, Note, read_note, work
 from sphstudy.cluster_settings import executor, settings_of
-from sphstudy.config import ConfigurationError, validate
+from sphstudy.config import validate
+from sphstudy.errors import ConfigurationError
 from sphstudy.store import Store
 
 INTERRUPTED = ("BOOT_FAIL", "NODE_FAIL", "PREEMPTED")

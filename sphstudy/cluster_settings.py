@@ -7,8 +7,8 @@ from typing import Annotated, Any
 
 from pydantic import StringConstraints
 
-from sphstudy.config import ConfigurationError, checked
-from sphstudy.parameters import count, described, number, parameters
+from sphstudy.errors import ConfigurationError
+from sphstudy.parameters import checked, count, described, number, parameters
 from sphstudy.pool import GRACE, thread_settings
 
 OneLine = Annotated[str, StringConstraints(min_length=1, pattern=r"^[^\x00-\x1f\x7f]+$")]

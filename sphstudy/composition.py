@@ -21,15 +21,12 @@ from hydra.types import RunMode
 from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
-from sphstudy.config import (
-    ConfigurationError,
-    RunConfig,
-    checked,
-    configuration_folder,
-    solver_module,
-    validate,
-)
+from sphstudy import catalogue
+from sphstudy.catalogue import solver_module
+from sphstudy.config import RunConfig, validate
+from sphstudy.errors import ConfigurationError
 from sphstudy.execution import RETRIES, Execution
+from sphstudy.parameters import checked
 
 LAUNCHERS = ("local", "basic", "slurm")
 """Side by side on this machine, one after the other in this process, jobs of a SLURM cluster."""
@@ -252,7 +249,7 @@ def launcher_overrides(arguments: list[str]) -> list[str]:
 @contextmanager
 def session() -> Iterator[Session]:
     """A Session on the project's configuration folder."""
-    folder = str(configuration_folder().resolve())
+    folder = str(catalogue.folder("conf").resolve())
     with initialize_config_dir(folder, version_base="1.3", job_name="sphstudy"):
         yield Session()
 

@@ -1,31 +1,20 @@
 """The whole truth of a run: one frozen dataclass, validated from what Hydra composed.
 
-Scenes and methods are found by the `kind` in their YAML file: module `sphstudy.scenes.<kind>` or
-`sphstudy.methods.<kind>`, whose `Parameters` declare types, ranges and meanings. Nothing is registered.
+Scenes and methods are found by the `kind` in their YAML file (catalogue.py); the `Parameters` of their
+modules declare types, ranges and meanings.
 """
 
-import dataclasses
-import importlib
 import json
 import os
 import re
 from collections.abc import Iterator
 from functools import cache, cached_property
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from pydantic import TypeAdapter, ValidationError
-
-from sphstudy.parameters import count, described, number, parameters
-
-
-class ConfigurationError(ValueError):
-    """Wrong input. `complaints`: one line each, naming key, value and what is allowed."""
-
-    def __init__(self, complaints: list[str]):
-        super().__init__("\n".join(complaints))
-        self.complaints = complaints
+from sphstudy.catalogue import method_module, scene_module, solver_module
+from sphstudy.errors import ConfigurationError
+from sphstudy.parameters import adapter, checked, count, described, number, parameters
 
 
 @parameters
@@ -94,55 +83,7 @@ def flattened(nested: dict[str, Any]) -> dict[str, Any]:
     return flat
 
 
-def configuration_folder() -> Path:
-    """The folder `conf`: inside the package when installed, beside it in a checkout."""
-    inside = Path(__file__).parent / "conf"
-    return inside if inside.is_dir() else Path(__file__).parent.parent / "conf"
-
-
-def scene_module(kind: str) -> ModuleType:
-    """The module that builds scenes of this kind."""
-    return _module("scenes", kind)
-
-
-def method_module(kind: str) -> ModuleType:
-    """The module of methods of this kind."""
-    return _module("methods", kind)
-
-
-def solver_module(name: str) -> ModuleType:
-    """The module of a solver."""
-    return _module("solve", name)
-
-
-def headline(scene: str, solver: str) -> tuple[str, ...]:
-    """What tables show of a run first: the scene's metrics, or numbers of a solver that has none of them.
-
-    scene: kind of scene; solver: its name.
-    """
-    return getattr(solver_module(solver), "HEADLINE", scene_module(scene).HEADLINE)
-
-
-@cache
-def _module(package: str, name: str) -> ModuleType:
-    if not (isinstance(name, str) and name.isidentifier()):
-        raise ConfigurationError([f"{package}: {name!r} is not the name of a module"])
-    try:
-        found = importlib.import_module(f"sphstudy.{package}.{name}")
-    except ModuleNotFoundError as error:
-        raise ConfigurationError([f"{package}: there is no module {name!r} ({error})"]) from None
-    if not hasattr(found, "Parameters"):
-        raise ConfigurationError([f"{package}: module {name!r} is none of them"])
-    return found
-
-
-@cache
-def adapter(cls: Any) -> TypeAdapter:
-    """What checks values against a class of parameters, made once."""
-    return TypeAdapter(cls)
-
-
-def _adapter_of(value: Any) -> TypeAdapter:
+def _adapter_of(value: Any) -> Any:
     cls: Any = type(value)
     return adapter(cls)
 
@@ -185,21 +126,6 @@ def validate(composed: dict[str, Any]) -> RunConfig:
     if complaints:
         raise ConfigurationError(complaints)
     return config
-
-
-def checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
-    """The values as an instance of a class of parameters; None, and complaints added, if they are not."""
-    try:
-        return adapter(cls).validate_python(values)
-    except ValidationError as error:
-        for item in error.errors():
-            key = prefix + ".".join(str(part) for part in item["loc"])
-            message = item["msg"].removeprefix("Input ").removeprefix("Value error, ")
-            if item["type"] in ("unexpected_keyword_argument", "extra_forbidden"):
-                allowed = ", ".join(sorted(field.name for field in dataclasses.fields(cls)))
-                message = f"there is no such key (there are {allowed})"
-            complaints.append(f"{key}={item['input']}: {message}")
-        return None
 
 
 def _memory_complaint(config: RunConfig, scene: ModuleType, method: ModuleType) -> list[str]:

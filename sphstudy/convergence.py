@@ -10,11 +10,11 @@ from rich.table import Table
 
 from sphstudy import study
 from sphstudy.cells import shown
-from sphstudy.config import ConfigurationError
+from sphstudy.console import console
+from sphstudy.errors import ConfigurationError
 from sphstudy.extrapolation import Series, extrapolated, series
 from sphstudy.richardson import ORDERS
 from sphstudy.store import read_dataset, write
-from sphstudy.tables import console
 
 _OPTIONS = ("--order", "--output", "results")
 _USAGE = "extrapolate STUDY|FILE.nc METRIC … [--order P] [--output FILE.nc] [results=FOLDER]"

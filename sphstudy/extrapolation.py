@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from sphstudy.cells import Cell, cells
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 from sphstudy.richardson import Extrapolation, extrapolate
 
 

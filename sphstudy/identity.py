@@ -10,7 +10,8 @@ import json
 from functools import cache, lru_cache
 from pathlib import Path
 
-from sphstudy.config import RunConfig, method_module, scene_module, solver_module
+from sphstudy.catalogue import method_module, scene_module, solver_module
+from sphstudy.config import RunConfig
 from sphstudy.numerics.version import PACKAGE, code_digest, version
 
 _MEASURING = ("metrics", "exact")

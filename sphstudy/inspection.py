@@ -9,14 +9,9 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
-from sphstudy import study
-from sphstudy.config import (
-    ConfigurationError,
-    configuration_folder,
-    method_module,
-    scene_module,
-    solver_module,
-)
+from sphstudy import catalogue, study
+from sphstudy.catalogue import method_module, scene_module, solver_module
+from sphstudy.errors import ConfigurationError
 
 _GROUPS = {"scene": scene_module, "method": method_module, "solve": solver_module}
 _NAME = 16
@@ -24,14 +19,14 @@ _NAME = 16
 
 
 def _settings(group: str, name: str) -> dict:
-    path = configuration_folder() / group / f"{name}.yaml"
+    path = catalogue.folder("conf") / group / f"{name}.yaml"
     if not path.is_file():
         raise ConfigurationError([f"{group}={name}: there is {', '.join(_names(group))}"])
     return yaml.safe_load(path.read_text())
 
 
 def _names(group: str) -> list[str]:
-    return sorted(path.stem for path in (configuration_folder() / group).glob("*.yaml"))
+    return sorted(path.stem for path in (catalogue.folder("conf") / group).glob("*.yaml"))
 
 
 def _first_line(module) -> str:

@@ -3,9 +3,11 @@
 Values live in `conf/`; here stand types, ranges, units and meanings, which `sphstudy describe` prints.
 """
 
+import dataclasses
+from functools import cache
 from typing import Any, TypeVar, dataclass_transform
 
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass as _dataclass
 
 T = TypeVar("T")
@@ -33,3 +35,24 @@ def described(meaning: str) -> Any:
 def parameters(cls: type[T]) -> type[T]:
     """Class decorator: a frozen, keyword-only dataclass that refuses unknown keys, NaN, infinity."""
     return _dataclass(frozen=True, kw_only=True, config=_STRICT)(cls)  # type: ignore[return-value]
+
+
+@cache
+def adapter(cls: Any) -> TypeAdapter:
+    """What checks values against a class of parameters, made once."""
+    return TypeAdapter(cls)
+
+
+def checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
+    """The values as an instance of a class of parameters; None, and complaints added, if they are not."""
+    try:
+        return adapter(cls).validate_python(values)
+    except ValidationError as error:
+        for item in error.errors():
+            key = prefix + ".".join(str(part) for part in item["loc"])
+            message = item["msg"].removeprefix("Input ").removeprefix("Value error, ")
+            if item["type"] in ("unexpected_keyword_argument", "extra_forbidden"):
+                allowed = ", ".join(sorted(field.name for field in dataclasses.fields(cls)))
+                message = f"there is no such key (there are {allowed})"
+            complaints.append(f"{key}={item['input']}: {message}")
+        return None

@@ -9,12 +9,14 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
 from sphstudy import identity
+from sphstudy.catalogue import method_module, scene_module
 from sphstudy.composition import Point
-from sphstudy.config import ConfigurationError, flattened, method_module, scene_module
+from sphstudy.config import flattened
+from sphstudy.console import console
 from sphstudy.display import duration
+from sphstudy.errors import ConfigurationError
 from sphstudy.prediction import prospect, rates
 from sphstudy.store import REUSED, Store
-from sphstudy.tables import console
 
 TRIED_AGAIN = {
     "none": (),

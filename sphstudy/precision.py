@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from sphstudy.collect import hashable
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 
 ERRORS = {
     "plate": "frequency_error_2d",

@@ -18,7 +18,8 @@ from typing import Any
 import numpy as np
 
 from sphstudy import identity
-from sphstudy.config import RunConfig, method_module, scene_module, solver_module, validate
+from sphstudy.catalogue import method_module, scene_module, solver_module
+from sphstudy.config import RunConfig, validate
 from sphstudy.provenance import provenance
 from sphstudy.store import Store
 

@@ -12,9 +12,10 @@ from rich.table import Table
 
 from sphstudy import identity
 from sphstudy.claim import is_alive
-from sphstudy.config import ConfigurationError, validate
+from sphstudy.config import validate
+from sphstudy.console import console
+from sphstudy.errors import ConfigurationError
 from sphstudy.store import CHECKPOINT, CLAIM, Store
-from sphstudy.tables import console
 
 FORGOTTEN = 30 * 24 * 3600.0
 """Age of a checkpoint (s) from which on nobody is expected to go on from it."""

@@ -12,25 +12,19 @@ import xarray as xr
 import yaml
 from pydantic import TypeAdapter
 
-from sphstudy import collect, provenance, results, study
+from sphstudy import catalogue, collect, provenance, results, study
 from sphstudy.composition import Session
-from sphstudy.config import ConfigurationError
 from sphstudy.effects import effects
+from sphstudy.errors import ConfigurationError
 from sphstudy.parameters import described, number, parameters
 from sphstudy.store import Store, read_dataset, write
 from sphstudy.study import Values
 from sphstudy.tolerance import Tolerance, tolerances
 
 
-def folder() -> Path:
-    """The folder of references: inside the package when installed, in `results` in a checkout."""
-    inside = Path(__file__).parent / "reference"
-    return inside if inside.is_dir() else Path(__file__).parent.parent / "results" / "reference"
-
-
 def load(name: str) -> xr.Dataset | None:
     """The stored reference of a study, None if there is none."""
-    path = folder() / f"{name}.nc"
+    path = catalogue.folder("reference") / f"{name}.nc"
     if not path.is_file():
         return None
     return read_dataset(str(path), path.parent)
@@ -65,7 +59,9 @@ class Printed:
 @cache
 def printed() -> tuple[Printed, ...]:
     """The thesis's values."""
-    values = yaml.safe_load((folder() / "thesis_values.yaml").read_text())
+    values = yaml.safe_load(
+        (catalogue.folder("reference") / "thesis_values.yaml").read_text(encoding="utf-8")
+    )
     return tuple(TypeAdapter(list[Printed]).validate_python(values))
 
 
@@ -98,7 +94,7 @@ def make(hydra: Session, name: str, store_folder: str) -> list[Path]:
     for member, own in whole.table.groupby("study", sort=False):
         configs = [whole.config_at(index) for index in own.drop_duplicates("record").index]
         dataset, _ = collect.collect(configs, Store(store_folder), str(member))
-        path = folder() / f"{member}.nc"
+        path = catalogue.folder("reference") / f"{member}.nc"
         allowed = _widest([tolerances(found[other]) for other in asked[str(member)]])
         write(_with_intervals(dataset, allowed), path, "NETCDF3_64BIT")
         paths.append(path)

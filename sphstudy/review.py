@@ -14,14 +14,15 @@ from sphstudy.blocks import all_points
 from sphstudy.claims import claim
 from sphstudy.compare import MISSING, OUTSIDE, Comparison
 from sphstudy.composition import Session, session
-from sphstudy.config import ConfigurationError
+from sphstudy.console import console
+from sphstudy.errors import ConfigurationError
 from sphstudy.execution import SETTINGS
 from sphstudy.record import STATUS
 from sphstudy.results import load
 from sphstudy.runner import measured
 from sphstudy.stability import bounds
 from sphstudy.store import Store, read_dataset
-from sphstudy.tables import console, print_tables
+from sphstudy.tables import print_tables
 
 SHOWN = 20
 """Rows of a comparison that are printed unless all are asked for."""

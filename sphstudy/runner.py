@@ -10,10 +10,11 @@ from typing import Any
 import xarray as xr
 
 from sphstudy import identity, record
+from sphstudy.catalogue import method_module, scene_module, solver_module
 from sphstudy.checkpoint_file import CheckpointFile
 from sphstudy.claim import Claim
 from sphstudy.compile_timer import CompileTimer
-from sphstudy.config import RunConfig, method_module, scene_module, solver_module, validate
+from sphstudy.config import RunConfig, validate
 from sphstudy.execution import Execution
 from sphstudy.guard import Log, memory_limited, warnings_to
 from sphstudy.interrupt import interruptible

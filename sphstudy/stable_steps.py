@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from sphstudy.config import method_module
+from sphstudy.catalogue import method_module
 from sphstudy.precision import ERRORS
 
 SCHEME = ["method", "integrator", "damped"]

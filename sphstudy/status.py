@@ -12,11 +12,12 @@ from rich.table import Table
 from sphstudy.blocks import all_points
 from sphstudy.claim import Holder, holder, is_alive
 from sphstudy.composition import session
-from sphstudy.config import ConfigurationError
+from sphstudy.console import console
 from sphstudy.display import duration
+from sphstudy.errors import ConfigurationError
 from sphstudy.planning import plan
 from sphstudy.store import CHECKPOINT, CLAIM, Store
-from sphstudy.tables import LONGEST, console
+from sphstudy.tables import LONGEST
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,8 @@ import xarray as xr
 
 from sphstudy import identity
 from sphstudy.claim import is_alive
-from sphstudy.config import ConfigurationError, RunConfig
+from sphstudy.config import RunConfig
+from sphstudy.errors import ConfigurationError
 from sphstudy.index import Index
 from sphstudy.seal import HOW, SEALED, check_seal, seal, taken_seal
 from sphstudy.summary import Summary, of_record, of_text

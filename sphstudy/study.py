@@ -20,13 +20,13 @@ All but the title are optional. To give a setting that is itself a list, write i
 """
 
 import itertools
-from pathlib import Path
 from typing import Any
 
 import yaml
 from pydantic import TypeAdapter, ValidationError
 
-from sphstudy.config import ConfigurationError
+from sphstudy import catalogue
+from sphstudy.errors import ConfigurationError
 from sphstudy.parameters import described, parameters
 
 SPEED = ("speed", "What pairs, terms, a start and a second core cost on this machine")
@@ -86,15 +86,9 @@ _OPTIONAL: dict[str, Any] = {
 }
 
 
-def folder() -> Path:
-    """The folder `studies`: inside the package when installed, beside it in a checkout."""
-    inside = Path(__file__).parent / "studies"
-    return inside if inside.is_dir() else Path(__file__).parent.parent / "studies"
-
-
 def names() -> list[str]:
     """Names of all studies."""
-    return sorted(path.stem for path in folder().glob("*.yaml"))
+    return sorted(path.stem for path in catalogue.folder("studies").glob("*.yaml"))
 
 
 def load(name: str) -> Study:
@@ -102,7 +96,7 @@ def load(name: str) -> Study:
     if name not in names():
         own = f"and {SPEED[0]}, by `sphstudy study {SPEED[0]}` only"
         raise ConfigurationError([f"study {name}: there is {', '.join(names())}, {own}"])
-    path = folder() / f"{name}.yaml"
+    path = catalogue.folder("studies") / f"{name}.yaml"
     try:
         values = yaml.safe_load(path.read_text(encoding="utf-8"))
         if not isinstance(values, dict) or not all(isinstance(key, str) for key in values):

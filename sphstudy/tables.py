@@ -1,22 +1,16 @@
 """Tables on the console."""
 
-import numpy as np
 import xarray as xr
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
 from rich.table import Table
 
+from sphstudy.catalogue import headline
 from sphstudy.cells import Cell, cells, shown
-from sphstudy.config import headline
+from sphstudy.console import console
+from sphstudy.text import number
 
 LONGEST = 400
 """Rows of a table that are printed; of more points, only those that are not done."""
-
-
-def console() -> Console:
-    """The terminal, or something wide enough for any table. Text in brackets is text, not markup."""
-    there = Console(markup=False)
-    return there if there.is_terminal else Console(width=400, markup=False)
 
 
 def print_tables(dataset: xr.Dataset) -> None:
@@ -52,12 +46,3 @@ def _print_table(dataset: xr.Dataset, found: list[Cell], shown_first: tuple[str,
 def _order(cell: Cell) -> tuple:
     """Sorts points by their coordinates: text before numbers, each in its own order."""
     return tuple((0, v) if isinstance(v, str) else (1, v) for v in cell.place.values())
-
-
-def number(value: float) -> str:
-    """Four significant digits; a dash where there is no number."""
-    if np.isnan(value):
-        return "–"
-    if value == int(value) and abs(value) < 1e15:
-        return f"{int(value)}"
-    return f"{value:.4g}"

@@ -5,7 +5,7 @@ import os
 import pytest
 
 from sphstudy.composition import session
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 from sphstudy.execution import SETTINGS
 
 

@@ -9,7 +9,7 @@ from scipy.optimize import curve_fit
 from sphstudy import richardson
 from sphstudy.collect import collect
 from sphstudy.composition import session
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 from sphstudy.extrapolation import extrapolated, series
 from sphstudy.record import STATUS
 from sphstudy.richardson import Extrapolation, extrapolate

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from sphstudy import precision
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 
 MISSING = float("nan")
 POINTS = [  # method, h, n, error, CPU seconds, status

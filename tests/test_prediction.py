@@ -8,8 +8,8 @@ import pytest
 import xarray as xr
 
 from sphstudy import identity, record
+from sphstudy.catalogue import solver_module
 from sphstudy.composition import session
-from sphstudy.config import solver_module
 from sphstudy.metrics.metric import Metric
 from sphstudy.prediction import Measurement, Rates, prospect, rates
 from sphstudy.provenance import provenance

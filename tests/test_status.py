@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from sphstudy import claim, study
+from sphstudy import catalogue, claim
 from sphstudy.__main__ import main
 from sphstudy.claim import Claim
 from sphstudy.runner import compute, give_up
@@ -25,7 +25,7 @@ def store(tmp_path, monkeypatch):
     """n = 5 done, 7 failed, 9 timeout, 11 running here, 13 lost, 15 unreadable, 17 missing."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "tiny.yaml").write_text(FILE)
-    monkeypatch.setattr(study, "folder", lambda: tmp_path)
+    monkeypatch.setitem(catalogue.FOLDERS, "studies", tmp_path)
     monkeypatch.setattr(claim, "NOTE_INTERVAL", 0.0)
     Solver(monkeypatch)
     store = Store("results")

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from sphstudy import store as store_module
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 from sphstudy.store import Store, read, write
 
 

@@ -2,16 +2,16 @@
 
 import pytest
 
-from sphstudy import study
+from sphstudy import catalogue, study
 from sphstudy.__main__ import main
 from sphstudy.blocks import StudyPoints, all_points
 from sphstudy.composition import session
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    monkeypatch.setattr(study, "folder", lambda: tmp_path)
+    monkeypatch.setitem(catalogue.FOLDERS, "studies", tmp_path)
     return tmp_path
 
 

@@ -3,8 +3,8 @@
 from sphstudy.claims import stability
 from sphstudy.claims.claim import REPRODUCED, Finding, claim
 from sphstudy.claims.reading import interval, size, verdict
-from sphstudy.report.text import number
 from sphstudy.results import Results
+from sphstudy.text import number
 
 CASE = {"h": 1.7, "n": 21}
 """The case that the thesis shows."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from sphstudy import claims, study
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 from sphstudy.results import Missing, Results
 
 REPRODUCED, PARTLY, NOT, UNKNOWN = "reproduced", "partly", "not reproduced", "no data"

@@ -12,16 +12,10 @@ import pandas as pd
 
 from sphstudy.claims.claim import Finding, claim
 from sphstudy.claims.reading import because, size, verdict
-from sphstudy.claims.stability import (
-    FULL,
-    INFLECTION,
-    THOUSANDTH,
-    curvature_at_neighbour,
-    unstable_side,
-)
+from sphstudy.claims.stability import FULL, INFLECTION, THOUSANDTH, curvature_at_neighbour, unstable_side
 from sphstudy.metrics.roughness import VISIBLE
-from sphstudy.report.text import number
 from sphstudy.results import Missing, Results
+from sphstudy.text import number
 
 KERNEL, STRESS = "method.kernel", "method.artificial_stress"
 

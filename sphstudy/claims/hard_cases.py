@@ -3,10 +3,10 @@
 from sphstudy.claims import stability
 from sphstudy.claims.claim import PARTLY, REPRODUCED, Finding, claim
 from sphstudy.claims.reading import percent, verdict
-from sphstudy.report.text import number
 from sphstudy.results import Missing, Results
 from sphstudy.stability.cases import judged
 from sphstudy.stability.judge import DONE
+from sphstudy.text import number
 
 HELD = 0.5
 """Share of the exact stress: below, a bar that is held has lost it; a sound one has nearly all."""

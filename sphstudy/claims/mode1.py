@@ -20,8 +20,8 @@ from sphstudy.claims.reading import (
     whole_grid,
     within,
 )
-from sphstudy.report.text import number
 from sphstudy.results import Results
+from sphstudy.text import number
 
 PROPAGATION_RANGE = (-0.31, -0.17)
 """-0.30 to -0.18, the ends of figure 4.12a's axis, and half a tick (0.01) on either side."""

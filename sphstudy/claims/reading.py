@@ -4,8 +4,8 @@ import pandas as pd
 
 from sphstudy.claims.claim import NOT, PARTLY, REPRODUCED
 from sphstudy.effects import CONTROL
-from sphstudy.report.text import number
 from sphstudy.results import Missing, Results
+from sphstudy.text import number
 
 SMOOTHING = (1.3, 1.5, 1.7, 1.9)
 """Relative smoothing radii h̃ of every grid of the thesis."""

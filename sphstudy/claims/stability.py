@@ -3,9 +3,9 @@
 from typing import Any
 
 from sphstudy.claims.reading import percent, size
-from sphstudy.report.text import number
 from sphstudy.results import Missing, Results
 from sphstudy.sph.kernel import KERNELS, curvature
+from sphstudy.text import number
 
 INFLECTION = 1e-9
 """A curvature h⁴ W'' smaller than this is zero but for rounding: the neighbour sits on the inflection."""

@@ -18,8 +18,8 @@ from sphstudy.claims.reading import (
 )
 from sphstudy.claims.stability import FULL, THOUSANDTH, plate_test
 from sphstudy.metrics.roughness import VISIBLE
-from sphstudy.report.text import number
 from sphstudy.results import Results
+from sphstudy.text import number
 
 FAR_BETTER = 3.0
 """Projection is far better than propagation where its error is so many times smaller."""

@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from sphstudy.config import scene_module
+from sphstudy.catalogue import scene_module
 from sphstudy.methods import lattice
 from sphstudy.methods.lattice import lattice_neighbours, support
 from sphstudy.parameters import described, number, parameters

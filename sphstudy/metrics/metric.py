@@ -1,10 +1,11 @@
 """What a metric is, and how all metrics of a run are measured."""
 
-import importlib
 from typing import NamedTuple
 
 import xarray as xr
 from threadpoolctl import threadpool_limits
+
+from sphstudy import catalogue
 
 
 class Metric(NamedTuple):
@@ -20,7 +21,7 @@ def measure(run: xr.Dataset, config, modules: tuple[str, ...]) -> dict[str, Metr
     """All metrics of the named modules of `sphstudy.metrics`, for one record."""
     found: dict[str, Metric] = {}
     for name in modules:
-        module = importlib.import_module(f"sphstudy.metrics.{name}")
+        module = catalogue.module("metrics", name)
         # The last bits of what BLAS returns depend on its threads, which differ from worker to worker.
         # Only what is loaded by now is limited.
         with threadpool_limits(1):

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 from sphstudy.peers import measure
 from sphstudy.peers.codes import CODES, PEERS, THIS, Code
 from sphstudy.peers.dataset import dataset, ratios

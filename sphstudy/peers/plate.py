@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from sphstudy.composition import session
-from sphstudy.config import ConfigurationError, RunConfig
+from sphstudy.config import RunConfig
+from sphstudy.errors import ConfigurationError
 from sphstudy.exact import beam
 from sphstudy.exact.elasticity2d import Reference, plate_frequencies
 from sphstudy.methods.updated_lagrangian import wave_speed

@@ -12,11 +12,12 @@ from matplotlib.lines import Line2D
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
+from sphstudy.console import console
 from sphstudy.peers.dataset import STATUS
 from sphstudy.report.drawing import TEXT_WIDTH, plain_logarithmic
 from sphstudy.report.figure import STYLE
 from sphstudy.report.series import PERCENT
-from sphstudy.tables import console, number
+from sphstudy.text import number
 
 _COLUMNS = {
     "error (%)": lambda point: f"{PERCENT * float(point['frequency_error_2d']):+.3f}",

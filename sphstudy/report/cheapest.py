@@ -2,9 +2,8 @@
 solver.
 """
 
-from sphstudy import precision
+from sphstudy import precision, text
 from sphstudy.precision import Choice
-from sphstudy.report import text
 from sphstudy.report.tables import Cell, Column, Table
 from sphstudy.results import Results
 

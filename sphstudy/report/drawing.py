@@ -13,7 +13,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullLocator
 from numpy.typing import ArrayLike
 
-from sphstudy.config import RunConfig, scene_module
+from sphstudy.catalogue import scene_module
+from sphstudy.config import RunConfig
 from sphstudy.metrics.regularity import nearest_distances
 from sphstudy.results import Missing, Results
 from sphstudy.scenes.problem import Problem

@@ -12,7 +12,7 @@ from typing import Any, Generic, TypeVar
 
 from matplotlib.figure import Figure
 
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 from sphstudy.results import Results
 
 STYLE = Path(__file__).parent / "figures.mplstyle"

@@ -8,11 +8,11 @@ from pathlib import Path
 import jinja2
 import pandas as pd
 
-from sphstudy import compare
+from sphstudy import compare, text
 from sphstudy.claims import claim
 from sphstudy.claims.claim import NOT, PARTLY, REPRODUCED
 from sphstudy.compare import OUTSIDE, UNSTABLE, WITHIN, Comparison
-from sphstudy.report import sections, tables, text
+from sphstudy.report import sections, tables
 from sphstudy.report.sections import Origin
 from sphstudy.report.tables import Table
 from sphstudy.results import Results

@@ -13,9 +13,9 @@ from matplotlib.figure import Figure
 from sphstudy.metrics.von_mises import von_mises
 from sphstudy.record import configuration
 from sphstudy.report.drawing import TEXT_WIDTH
-from sphstudy.report.text import number
 from sphstudy.solve.solution import LAST_GOOD
 from sphstudy.stability.judge import DONE
+from sphstudy.text import number
 
 _STRESSES = ("stress_xx", "stress_yy", "stress_xy")
 _UNITS = ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa"))

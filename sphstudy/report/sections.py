@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pandas as pd
 
-from sphstudy import study
+from sphstudy import study, text
 from sphstudy.effects import effects
 from sphstudy.record import STATUS
-from sphstudy.report import cheapest, render, tables, text, time_steps
+from sphstudy.report import cheapest, render, tables, time_steps
 from sphstudy.report.render import Drawing
 from sphstudy.report.tables import Group, Setting, Table
 from sphstudy.results import Results

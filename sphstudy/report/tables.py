@@ -7,11 +7,11 @@ from typing import Any
 
 import pandas as pd
 
-from sphstudy import collect
+from sphstudy import collect, text
+from sphstudy.catalogue import headline
 from sphstudy.compare import Comparison
-from sphstudy.config import RunConfig, headline
+from sphstudy.config import RunConfig
 from sphstudy.effects import Effect
-from sphstudy.report import text
 from sphstudy.results import Results
 
 COST = ("cpu_seconds", "steps", "particles")

@@ -3,8 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from sphstudy import stable_steps
-from sphstudy.report import text
+from sphstudy import stable_steps, text
 from sphstudy.report.tables import Cell, Column, Table
 from sphstudy.results import Results
 from sphstudy.stable_steps import SCHEME

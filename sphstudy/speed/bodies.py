@@ -5,8 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
+from sphstudy.catalogue import method_module, scene_module
 from sphstudy.composition import Session
-from sphstudy.config import RunConfig, method_module, scene_module
+from sphstudy.config import RunConfig
 from sphstudy.scenes.problem import Problem
 from sphstudy.solve import explicit
 from sphstudy.solve.potential_system import PotentialSystem

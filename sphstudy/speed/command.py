@@ -5,7 +5,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 from sphstudy.speed.settings import PARTS, Settings, parsed
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 
 PARTS = {
     "forms": "time per pair on lattices, cracked, perturbed, in random order",

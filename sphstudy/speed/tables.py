@@ -5,8 +5,9 @@ import xarray as xr
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
+from sphstudy.console import console
 from sphstudy.speed.terms import term_costs
-from sphstudy.tables import console, number
+from sphstudy.text import number
 
 _RATES = {
     "particles": "particles",

@@ -22,7 +22,8 @@ import numpy as np
 import yaml
 from pydantic import TypeAdapter, ValidationError
 
-from sphstudy.config import ConfigurationError, configuration_folder
+from sphstudy import catalogue
+from sphstudy.errors import ConfigurationError
 from sphstudy.parameters import described, number, parameters
 from sphstudy.stability.indicators import INDICATORS
 from sphstudy.study import Values, holds
@@ -135,7 +136,7 @@ def _path(name: str) -> Path:
 
 
 def _folder() -> Path:
-    return configuration_folder() / "bounds"
+    return catalogue.folder("conf") / "bounds"
 
 
 @cache

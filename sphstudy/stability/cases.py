@@ -7,9 +7,9 @@ from typing import Any
 import pandas as pd
 import yaml
 
+from sphstudy import catalogue, text
 from sphstudy.collect import hashable
-from sphstudy.config import RunConfig, configuration_folder, flattened
-from sphstudy.report import text
+from sphstudy.config import RunConfig, flattened
 from sphstudy.results import Results
 from sphstudy.stability.bounds import Bound, for_point
 from sphstudy.stability.judge import Judgement, judge
@@ -90,7 +90,7 @@ def by_place(cases: list[Case]) -> pd.DataFrame:
 def usual(config: RunConfig) -> dict[str, Any]:
     """Settings (flat keys) of method and solver that a scene has unless told otherwise."""
     scene, method, solver = config.scene.name, config.method.name, config.solve.name
-    folder = configuration_folder()
+    folder = catalogue.folder("conf")
     found = flattened({"method": _read(folder / "method" / f"{method}.yaml")})
     found |= flattened({"solve": _read(folder / "solve" / f"{solver}.yaml")})
     protocol = folder / "protocol" / f"{scene}_{method}_{solver}.yaml"

@@ -4,12 +4,12 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Table as Printed
 
 from sphstudy.composition import session
+from sphstudy.console import console
 from sphstudy.report.tables import Table
 from sphstudy.results import load
 from sphstudy.review import named
 from sphstudy.stability.cases import judged
 from sphstudy.stability.tables import bounds, counts, quoted, stability_map
-from sphstudy.tables import console
 
 
 def judge_command(arguments: list[str]) -> int:

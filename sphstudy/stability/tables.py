@@ -3,7 +3,7 @@
 import math
 from collections import Counter
 
-from sphstudy.report import text
+from sphstudy import text
 from sphstudy.report.tables import Cell, Column, Table
 from sphstudy.results import Results
 from sphstudy.stability.bounds import Bound, Quoted

@@ -11,7 +11,7 @@ import pytest
 from sphstudy import cluster, cluster_settings
 from sphstudy.cluster import Slurm
 from sphstudy.composition import session
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 from sphstudy.slurm import UNKNOWN, State
 from sphstudy.store import Store
 from tests.cluster.fake import DONE, FakeCluster

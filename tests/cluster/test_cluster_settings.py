@@ -6,16 +6,16 @@ from types import SimpleNamespace
 import pytest
 from omegaconf import OmegaConf
 
-from sphstudy import cluster_settings
+from sphstudy import catalogue, cluster_settings
 from sphstudy.cluster_settings import settings_of
 from sphstudy.composition import session
-from sphstudy.config import ConfigurationError, configuration_folder
+from sphstudy.errors import ConfigurationError
 
 
 @pytest.fixture
 def values():
     """What conf/ has."""
-    path = configuration_folder() / "hydra" / "launcher" / "slurm.yaml"
+    path = catalogue.folder("conf") / "hydra" / "launcher" / "slurm.yaml"
     return OmegaConf.to_container(OmegaConf.load(path))
 
 

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 import sphstudy
-from sphstudy import provenance, reference, study
+from sphstudy import catalogue, provenance
 from sphstudy.__main__ import main
 from sphstudy.store import read, write
 
@@ -30,14 +30,14 @@ def place(tmp_path_factory):
     folder = tmp_path_factory.mktemp("place")
     (folder / "studies").mkdir()
     (folder / "reference").mkdir()
-    shutil.copy(reference.folder() / "thesis_values.yaml", folder / "reference")
+    shutil.copy(catalogue.folder("reference") / "thesis_values.yaml", folder / "reference")
     text = f"title: tiny\nblocks: {{grid: {PLATE}}}\nfigures: [plate.frequency_error]\nclaims: [V1]\n"
     (folder / "studies" / "tiny.yaml").write_text(text)
     (folder / "studies" / "choices.yaml").write_text(CHOICES)
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
-        patch.setattr(study, "folder", lambda: folder / "studies")
-        patch.setattr(reference, "folder", lambda: folder / "reference")
+        patch.setitem(catalogue.FOLDERS, "studies", folder / "studies")
+        patch.setitem(catalogue.FOLDERS, "reference", folder / "reference")
         real = provenance.provenance()
         patch.setattr(provenance, "provenance", lambda: {**real, "git_state": COMMIT})
         patch.setattr("sphstudy.runner.provenance", provenance.provenance)

@@ -22,8 +22,9 @@ from hypothesis import strategies as st
 import sphstudy
 from sphstudy import batch, study
 from sphstudy.__main__ import main
+from sphstudy.catalogue import scene_module
 from sphstudy.composition import session
-from sphstudy.config import scene_module, validate
+from sphstudy.config import validate
 from sphstudy.planning import plan
 from sphstudy.store import Store
 from tests.faults.strategies import CHEAP, OVERRIDES, POISON, STUDIES, damages

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from sphstudy.catalogue import scene_module
 from sphstudy.composition import session
-from sphstudy.config import scene_module
 from sphstudy.metrics import regularity
 
 

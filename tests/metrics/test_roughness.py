@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from sphstudy.catalogue import scene_module
 from sphstudy.composition import session
-from sphstudy.config import scene_module
 from sphstudy.metrics import roughness
 from sphstudy.metrics.von_mises import von_mises
 

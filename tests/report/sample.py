@@ -8,7 +8,7 @@ from types import ModuleType
 import xarray as xr
 from matplotlib.figure import Figure
 
-from sphstudy import identity, record, results, study
+from sphstudy import catalogue, identity, record, results
 from sphstudy.claims import claim
 from sphstudy.claims.claim import NOT, Finding
 from sphstudy.metrics.metric import Metric
@@ -85,7 +85,7 @@ def _record(config, status, message, metrics, cpu_seconds):
 def load(folder, monkeypatch, hydra, stored=True):
     """Results of the study in an empty folder; with `stored`, most of its points are in the store."""
     (folder / "sample.yaml").write_text(STUDY)
-    monkeypatch.setattr(study, "folder", lambda: folder)
+    monkeypatch.setitem(catalogue.FOLDERS, "studies", folder)
     drawn = ModuleType("made_up")
     for name in ("good", "unwritable", "broken", "lacking"):
         setattr(drawn, name, figure("9.1", f"A {name} figure.")(globals()[f"_{name}"]))

@@ -5,10 +5,10 @@ import re
 
 import pytest
 
-from sphstudy import compare
+from sphstudy import compare, text
 from sphstudy.compare import OUTSIDE, WITHIN, Comparison
 from sphstudy.composition import session
-from sphstudy.report import page, tables, text
+from sphstudy.report import page, tables
 from sphstudy.results import Missing
 from tests.report import sample
 

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from sphstudy.catalogue import scene_module
 from sphstudy.composition import session
-from sphstudy.config import ConfigurationError, scene_module
+from sphstudy.errors import ConfigurationError
 from sphstudy.scenes import gray_plate
 
 

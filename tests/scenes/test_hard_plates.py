@@ -4,7 +4,7 @@ import pytest
 import yaml
 
 import sphstudy
-from sphstudy.config import configuration_folder
+from sphstudy import catalogue
 
 pytestmark = pytest.mark.slow
 
@@ -16,7 +16,7 @@ def folder(tmp_path_factory):
 
 def outside(run, scene):
     """Bounds of the scene on metrics that a record does not keep."""
-    path = configuration_folder() / "bounds" / f"{scene}.yaml"
+    path = catalogue.folder("conf") / "bounds" / f"{scene}.yaml"
     bounds = yaml.safe_load(path.read_text(encoding="utf-8"))["bounds"]
     low, high = float("-inf"), float("inf")
     return {

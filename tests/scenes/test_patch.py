@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import sphstudy
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 from sphstudy.scenes import patch
 from tests.scenes.test_tension import UNDAMPED, configured
 

@@ -5,7 +5,7 @@ import pytest
 
 import sphstudy
 from sphstudy.composition import session
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 from sphstudy.scenes import spin
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from sphstudy.catalogue import method_module, scene_module
 from sphstudy.checkpoint_file import CheckpointFile
 from sphstudy.composition import session
-from sphstudy.config import method_module, scene_module
 from sphstudy.solve import explicit
 from sphstudy.solve.checkpoint import Checkpoint, NoKeeper
 

@@ -5,8 +5,9 @@ import dataclasses
 import numpy as np
 import pytest
 
+from sphstudy.catalogue import method_module, scene_module
 from sphstudy.composition import session
-from sphstudy.config import ConfigurationError, method_module, scene_module
+from sphstudy.errors import ConfigurationError
 from sphstudy.prediction import prospect
 from sphstudy.solve import equilibrium, explicit
 from sphstudy.solve.newton import Effort, Newton

@@ -8,8 +8,9 @@ import pytest
 
 import sphstudy
 from sphstudy import record
+from sphstudy.catalogue import method_module, scene_module
 from sphstudy.composition import session
-from sphstudy.config import ConfigurationError, method_module, scene_module
+from sphstudy.errors import ConfigurationError
 from sphstudy.prediction import prospect
 from sphstudy.record import STATUS
 from sphstudy.runner import measured

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import scipy.linalg
 
+from sphstudy.catalogue import method_module, scene_module
 from sphstudy.composition import session
-from sphstudy.config import method_module, scene_module
 from sphstudy.metrics import oscillation
 from sphstudy.record import fields
 from sphstudy.solve import modes

@@ -4,8 +4,8 @@ import dataclasses
 
 import pytest
 
+from sphstudy.catalogue import method_module, scene_module
 from sphstudy.composition import session
-from sphstudy.config import method_module, scene_module
 from sphstudy.solve import explicit
 
 

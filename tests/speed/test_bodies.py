@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from sphstudy.catalogue import scene_module
 from sphstudy.composition import session
-from sphstudy.config import scene_module
 from sphstudy.speed import cases
 from sphstudy.speed.bodies import (
     LATTICE,

@@ -3,7 +3,7 @@
 import pytest
 
 from sphstudy.__main__ import main
-from sphstudy.config import ConfigurationError
+from sphstudy.errors import ConfigurationError
 from sphstudy.speed import measurements as parts
 from sphstudy.speed.settings import PARTS, parsed
 from sphstudy.store import read_dataset

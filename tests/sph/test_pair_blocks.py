@@ -4,14 +4,7 @@ import numba
 import numpy as np
 import pytest
 
-from sphstudy.sph import (
-    bond_sums,
-    constitutive,
-    kernel,
-    neighbours,
-    total_lagrangian,
-    updated_lagrangian,
-)
+from sphstudy.sph import bond_sums, constitutive, kernel, neighbours, total_lagrangian, updated_lagrangian
 from sphstudy.sph.material import Material
 from sphstudy.sph.pair_blocks import begins
 from sphstudy.sph.updated_lagrangian import rates, workspace

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import xarray as xr
 
-from sphstudy import identity, record, results, study
+from sphstudy import catalogue, identity, record, results
 from sphstudy.metrics.metric import Metric
 from sphstudy.solve.solution import FIELDS, HISTORY, LAST_GOOD
 from sphstudy.store import Store, write
@@ -60,7 +60,7 @@ def made_up(config, status="done", metrics=None, message="", times=None, states=
 def load(folder, monkeypatch, hydra, text, make):
     """Results of a study of this text, with the record of each point that `make(flat, config)` gives."""
     (folder / "made_up.yaml").write_text(text)
-    monkeypatch.setattr(study, "folder", lambda: folder)
+    monkeypatch.setitem(catalogue.FOLDERS, "studies", folder)
     store = Store(folder / "results")
     empty = results.load("made_up", hydra, [], str(store.folder))
     for row in empty.table.index:

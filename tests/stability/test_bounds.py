@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from sphstudy.config import ConfigurationError, configuration_folder
+from sphstudy import catalogue
+from sphstudy.errors import ConfigurationError
 from sphstudy.stability import bounds
 from sphstudy.stability.bounds import Bound, for_point, read
 from sphstudy.stability.indicators import INDICATORS
@@ -25,11 +26,11 @@ def bound(**limits):
 
 
 @pytest.mark.parametrize(
-    "path", sorted((configuration_folder() / "bounds").glob("*.yaml")), ids=lambda p: p.stem
+    "path", sorted((catalogue.folder("conf") / "bounds").glob("*.yaml")), ids=lambda p: p.stem
 )
 def test_all_files_are_sound_and_name_a_scene(path):
     assert read(path.stem)
-    assert path.stem == bounds.GENERAL or (configuration_folder() / "scene" / path.name).is_file()
+    assert path.stem == bounds.GENERAL or (catalogue.folder("conf") / "scene" / path.name).is_file()
 
 
 @pytest.mark.parametrize(

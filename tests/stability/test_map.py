@@ -9,7 +9,7 @@ import pytest
 from matplotlib.collections import EllipseCollection
 from PIL import Image, ImageSequence
 
-from sphstudy import study
+from sphstudy import catalogue
 from sphstudy.__main__ import main
 from sphstudy.composition import session
 from sphstudy.report import figure, page, panels, render
@@ -232,7 +232,7 @@ def test_a_scene_without_frames_has_no_pictures(found):
 
 
 def test_the_page_has_the_map(found, folder, tmp_path, monkeypatch):
-    monkeypatch.setattr(study, "folder", lambda: folder)
+    monkeypatch.setitem(catalogue.FOLDERS, "studies", folder)
     plain = copy.copy(found)
     plain.definition = replace(found.definition, figures=[])
     read = Reader(page.write(plain, tmp_path).read_text(encoding="utf-8"))
@@ -244,7 +244,7 @@ def test_the_page_has_the_map(found, folder, tmp_path, monkeypatch):
 
 
 def test_the_command_prints_the_map(found, folder, monkeypatch, capsys):
-    monkeypatch.setattr(study, "folder", lambda: folder)
+    monkeypatch.setitem(catalogue.FOLDERS, "studies", folder)
     assert main(["judge", "made_up", f"results={folder / 'results'}"]) == 0
     said = capsys.readouterr().out
     assert "judged: 7 done, 2 degraded, 1 diverged, 1 missing, 1 failed" in said

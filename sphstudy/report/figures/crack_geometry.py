@@ -7,7 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from sphstudy.config import RunConfig, method_module
+from sphstudy.catalogue import method_module
+from sphstudy.config import RunConfig
 from sphstudy.report.drawing import TEXT_WIDTH, built, first_configuration, geometry, particles
 from sphstudy.report.figure import figure
 from sphstudy.results import Results

@@ -11,10 +11,10 @@ from matplotlib.patches import Patch, Rectangle
 
 from sphstudy.report.drawing import TEXT_WIDTH
 from sphstudy.report.figure import figure
-from sphstudy.report.text import number
 from sphstudy.results import Missing, Results
 from sphstudy.stability.cases import Case, by_place, judged
 from sphstudy.stability.judge import DEGRADED, DIVERGED, DONE, Judgement
+from sphstudy.text import number
 
 _LOOKS: dict[str, tuple[str, str, str]] = {
     DONE: ("#e3f1fa", "black", "\N{CHECK MARK}"),

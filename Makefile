@@ -10,7 +10,7 @@ study: $(READY)  ## environment, then the main job: the mode I grid of the thesi
 	$(BIN)/python -m sphstudy -m h=1.3,1.5,1.7,1.9 n=40,50,60
 
 test: $(READY) check  ## lint, types, default tests
-	NUMBA_DISABLE_JIT=1 $(BIN)/python -m pytest tests/sph -m 'not slow and not compiled' --quiet
+	NUMBA_DISABLE_JIT=1 $(BIN)/python -m pytest tests/numerics/sph -m 'not slow and not compiled' --quiet
 	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile
 
 test-slow: $(READY)  ## the tests that take minutes

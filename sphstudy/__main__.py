@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from sphstudy.interrupt import interruptible, on_interrupt
+from sphstudy.running.interrupt import interruptible, on_interrupt
 
 USAGE = """\
 sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids and fracture
@@ -70,18 +70,18 @@ _FLAGS = {
     "--dry-run": "dry run",
 }
 _COMMANDS = {
-    "list": "inspection",
-    "describe": "inspection",
+    "list": "describe",
+    "describe": "describe",
     "report": "review",
     "compare": "review",
     "measure": "review",
     "reference": "review",
     "status": "status",
     "prune": "prune",
-    "judge": "stability.command",
-    "extrapolate": "convergence",
-    "advise": "advice",
-    "peers": "peers.command",
+    "judge": "judge",
+    "extrapolate": "extrapolate",
+    "advise": "advise",
+    "peers": "peers",
 }
 """Where `<command>_command` of each is, imported when it is asked for."""
 
@@ -195,7 +195,7 @@ def _work(arguments: list[str]) -> Callable[[], int]:
     name = arguments[0] if arguments else ""
     if name not in _COMMANDS:
         return _runs(arguments)
-    module = importlib.import_module(f"sphstudy.{_COMMANDS[name]}")
+    module = importlib.import_module(f"sphstudy.commands.{_COMMANDS[name]}")
     return partial(getattr(module, f"{name}_command"), arguments[1:])
 
 
@@ -214,15 +214,15 @@ def _runs(arguments: list[str]) -> Callable[[], int]:
     if "dry run" in flags and not named:
         raise ConfigurationError(["--dry-run: goes with study"])
     if named and overrides[:1] == ["speed"]:
-        from sphstudy.speed.command import speed_command
+        from sphstudy.commands.speed import speed_command
 
         return partial(speed_command, overrides[1:], "dry run" in flags)
-    from sphstudy import batch
+    from sphstudy.running import sweep
 
     force = "force" in flags
     if named:
-        return partial(batch.study_command, overrides, force, "dry run" in flags)
-    return partial(batch.run_command, overrides, many="sweep" in flags, force=force)
+        return partial(sweep.study_command, overrides, force, "dry run" in flags)
+    return partial(sweep.run_command, overrides, many="sweep" in flags, force=force)
 
 
 if __name__ == "__main__":

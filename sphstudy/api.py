@@ -4,9 +4,9 @@ from typing import Any
 
 import xarray as xr
 
-from sphstudy import batch
-from sphstudy.composition import session
-from sphstudy.store import Store, read_dataset
+from sphstudy.configuration.composition import session
+from sphstudy.running import sweep as batch
+from sphstudy.store.store import Store, read_dataset
 
 
 def run(**settings: Any) -> xr.Dataset:

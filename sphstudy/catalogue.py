@@ -1,7 +1,7 @@
 """Where everything that is found by name lies: settings, studies, references, scenes, methods, metrics.
 
-A scene is `scenes/<kind>.py`, a method `methods/<kind>.py`, a solver `solve/<name>.py`, a metric module
-`metrics/<name>.py`: nothing is registered.
+A scene is `model/scenes/<kind>.py`, a method `numerics/methods/<kind>.py`, a solver
+`numerics/solvers/<name>.py`, a module of metrics `metrics/<name>.py`: nothing is registered.
 """
 
 import importlib
@@ -12,7 +12,12 @@ from types import ModuleType
 from sphstudy.errors import ConfigurationError
 
 _PACKAGE = Path(__file__).parent
-_PLUG_INS = {"scenes": "scenes", "methods": "methods", "solvers": "solve", "metrics": "metrics"}
+_PLUG_INS = {
+    "scenes": "model.scenes",
+    "methods": "numerics.methods",
+    "solvers": "numerics.solvers",
+    "metrics": "metrics",
+}
 
 
 def _lies(name: str) -> Path:

@@ -4,11 +4,11 @@ import numpy as np
 import xarray as xr
 from scipy.interpolate import make_interp_spline
 
-from sphstudy.exact import beam
-from sphstudy.exact.elasticity2d import bent_plate
 from sphstudy.metrics.metric import Metric, snapshot
 from sphstudy.metrics.roughness import deviation
-from sphstudy.sph.material import Material
+from sphstudy.model.exact import beam
+from sphstudy.model.exact.elasticity2d import bent_plate
+from sphstudy.model.material import Material
 
 WALL, END = 0.15, 0.9
 """Figures 4.7a and 4.7b show boundary effects for x0 < WALL and x0 > END, in lengths of the plate."""

@@ -3,10 +3,10 @@
 import numpy as np
 import xarray as xr
 
-from sphstudy.exact.waves import checkerboard_stiffness
 from sphstudy.metrics.metric import Metric
-from sphstudy.scenes.checkerboard import pattern
-from sphstudy.sph.material import Material
+from sphstudy.model.exact.waves import checkerboard_stiffness
+from sphstudy.model.material import Material
+from sphstudy.model.scenes.checkerboard import pattern
 
 
 def measure(run: xr.Dataset, config) -> dict[str, Metric]:

@@ -4,8 +4,8 @@ import numpy as np
 import xarray as xr
 
 from sphstudy.metrics.metric import Metric
-from sphstudy.scenes.rings import rings_body
-from sphstudy.solve.indicators import cells
+from sphstudy.model.scenes.rings import rings_body
+from sphstudy.numerics.solvers.indicators import cells
 
 TORN = 2.0
 """Times its first length, from which on a bond between lattice neighbours counts as broken: rubber at

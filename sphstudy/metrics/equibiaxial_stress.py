@@ -2,11 +2,11 @@
 
 import xarray as xr
 
-from sphstudy.exact.homogeneous import equibiaxial_stress
 from sphstudy.metrics.metric import Metric, snapshot
 from sphstudy.metrics.stretched import law_of
 from sphstudy.metrics.uniaxial_stress import shares
-from sphstudy.sph.material import Material
+from sphstudy.model.exact.homogeneous import equibiaxial_stress
+from sphstudy.model.material import Material
 
 
 def measure(run: xr.Dataset, config) -> dict[str, Metric]:

@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.exact import williams
+from sphstudy.model.exact import williams
 
 ROUNDING = 1e-9
 """Relative: an annulus that touches a limit fits, whichever way the limit was rounded."""

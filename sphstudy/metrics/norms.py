@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from sphstudy.exact import williams
 from sphstudy.metrics.metric import Metric, snapshot
+from sphstudy.model.exact import williams
 
 
 class Norms(NamedTuple):

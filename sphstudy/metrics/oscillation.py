@@ -7,11 +7,11 @@ import xarray as xr
 from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
-from sphstudy.exact import beam
-from sphstudy.exact.elasticity2d import Reference, plate_frequencies
 from sphstudy.metrics.metric import Metric
-from sphstudy.scenes.plate import represented_length
-from sphstudy.sph.material import Material
+from sphstudy.model.exact import beam
+from sphstudy.model.exact.elasticity2d import Reference, plate_frequencies
+from sphstudy.model.material import Material
+from sphstudy.model.scenes.plate import represented_length
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ import xarray as xr
 from scipy.spatial import cKDTree
 
 from sphstudy.metrics.metric import Metric, snapshot
-from sphstudy.scenes.patch import affine
+from sphstudy.model.scenes.patch import affine
 
 REACH = 2.3
 """Radius of the fit, in spacings: twenty neighbours on a lattice."""

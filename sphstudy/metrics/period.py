@@ -3,13 +3,13 @@
 import numpy as np
 import xarray as xr
 
-from sphstudy.exact import beam
-from sphstudy.exact.elasticity2d import Reference, plate_frequencies
 from sphstudy.metrics.metric import Metric
 from sphstudy.metrics.swings import period, swings
-from sphstudy.scenes import gray_plate
-from sphstudy.scenes.plate import represented_length
-from sphstudy.sph.material import Material
+from sphstudy.model.exact import beam
+from sphstudy.model.exact.elasticity2d import Reference, plate_frequencies
+from sphstudy.model.material import Material
+from sphstudy.model.scenes import gray_plate
+from sphstudy.model.scenes.plate import represented_length
 
 ROWS = 10
 """Rows to which an error of second order in the spacing is scaled, so that one bound serves every n."""

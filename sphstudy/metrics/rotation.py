@@ -3,9 +3,9 @@
 import numpy as np
 import xarray as xr
 
-from sphstudy.exact.spinning_square import spinning_square
 from sphstudy.metrics.metric import Metric
-from sphstudy.sph.material import Material
+from sphstudy.model.exact.spinning_square import spinning_square
+from sphstudy.model.material import Material
 
 
 def fourfold_defect(place: np.ndarray, n: int) -> float:

@@ -3,10 +3,10 @@
 import numpy as np
 import xarray as xr
 
-from sphstudy.exact.waves import longitudinal_speed, stopped_bar, stopped_chain
 from sphstudy.metrics.metric import Metric
-from sphstudy.sph.kernel import KERNELS
-from sphstudy.sph.material import Material
+from sphstudy.model.exact.waves import longitudinal_speed, stopped_bar, stopped_chain
+from sphstudy.model.material import Material
+from sphstudy.numerics.sph.kernel import KERNELS
 
 PLATEAU_END = 0.8
 """Share of the front's way up to which the state behind it counts as plateau; the front is beyond."""

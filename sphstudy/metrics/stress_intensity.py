@@ -7,12 +7,12 @@ configuration, with the crack's bonds cut; stresses are those recorded.
 import numpy as np
 import xarray as xr
 
-from sphstudy.exact import williams
 from sphstudy.metrics.interaction_integral import Annulus, fits, j_integral, stress_intensities
 from sphstudy.metrics.metric import Metric, snapshot
-from sphstudy.scenes.crack import build
-from sphstudy.sph import bonds, constitutive, kernel, total_lagrangian
-from sphstudy.sph.crack import Crack
+from sphstudy.model.exact import williams
+from sphstudy.model.scenes.crack import build
+from sphstudy.numerics.sph import bonds, constitutive, kernel, total_lagrangian
+from sphstudy.numerics.sph.crack import Crack
 
 WHOLE = (0.1, 0.4)
 """Radii of the annulus in sides of the square (20 to 80 mm): clear of the tip and of the frame in all

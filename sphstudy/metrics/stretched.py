@@ -9,10 +9,10 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from sphstudy.exact.homogeneous import lateral_stretch
 from sphstudy.metrics.metric import Metric, snapshot
 from sphstudy.metrics.regularity import nearest_distances
-from sphstudy.sph.material import Material
+from sphstudy.model.exact.homogeneous import lateral_stretch
+from sphstudy.model.material import Material
 
 NEIGHBOURS = 1.2
 """Particles nearer than so many spacings in the reference configuration are neighbours on the lattice:
@@ -84,5 +84,5 @@ def _stretches(config) -> tuple[float, float]:
 
 
 def law_of(config) -> str:
-    """Name of the law in sphstudy.exact.homogeneous that a method follows."""
+    """Name of the law in sphstudy.model.exact.homogeneous that a method follows."""
     return getattr(config.method, "law", "rate")

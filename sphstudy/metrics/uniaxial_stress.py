@@ -3,10 +3,10 @@
 import numpy as np
 import xarray as xr
 
-from sphstudy.exact.homogeneous import uniaxial_stress
 from sphstudy.metrics.metric import Metric, snapshot
 from sphstudy.metrics.stretched import law_of
-from sphstudy.sph.material import Material
+from sphstudy.model.exact.homogeneous import uniaxial_stress
+from sphstudy.model.material import Material
 
 
 def measure(run: xr.Dataset, config) -> dict[str, Metric]:

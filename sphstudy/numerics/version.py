@@ -22,8 +22,8 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).parent.parent
 RECORD = Path(__file__).with_name("version.toml")
-ROOMS = ("compilation.py", "exact", "methods", "scenes", "solve", "sph")
-"""Folders and files of the package whose modules take part in the numbers of a run."""
+ROOMS = ("model", "numerics")
+"""Folders of the package whose modules take part in the numbers of a run."""
 
 _DIGITS = 12
 
@@ -87,12 +87,8 @@ def code_digest(path: Path) -> str:
 
 def sources() -> dict[str, Path]:
     """The modules of the package that take part in the numbers of a run, by their name below it."""
-    found = [
-        path
-        for room in ROOMS
-        for path in ((PACKAGE / room).rglob("*.py") if "." not in room else [PACKAGE / room])
-    ]
-    return {_name(path): path for path in sorted(found)}
+    found = (path for room in ROOMS for path in (PACKAGE / room).rglob("*.py"))
+    return {_name(path): path for path in sorted(found) if path != Path(__file__)}
 
 
 def differing() -> list[str]:

@@ -2,10 +2,11 @@
 solver.
 """
 
-from sphstudy import precision, text
-from sphstudy.precision import Choice
+from sphstudy import text
+from sphstudy.analysis import work_precision
+from sphstudy.analysis.results import Results
+from sphstudy.analysis.work_precision import Choice
 from sphstudy.report.tables import Cell, Column, Table
-from sphstudy.results import Results
 
 NONE = "no point reaches it"
 
@@ -16,12 +17,16 @@ def tables(results: Results) -> list[Table]:
     found = []
     for scene in dict.fromkeys(own["scene"]):
         rows = own[own["scene"] == scene]
-        if scene in precision.ERRORS and rows[["method", "solve"]].drop_duplicates().shape[0] > 1:
-            points = precision.points(rows, scene)
+        if scene in work_precision.ERRORS and rows[["method", "solve"]].drop_duplicates().shape[0] > 1:
+            points = work_precision.points(rows, scene)
             if not points["error"].isna().all():
                 found.append(
                     _table(
-                        scene, [(bound, precision.cheapest(points, bound)) for bound in precision.BOUNDS]
+                        scene,
+                        [
+                            (bound, work_precision.cheapest(points, bound))
+                            for bound in work_precision.BOUNDS
+                        ],
                     )
                 )
     return found
@@ -35,9 +40,8 @@ def _table(scene: str, chosen: list[tuple[float, Choice | None]]) -> Table:
         Column("CPU (s)", "CPU time without compilation"),
         Column("standing", "whether a finer resolution with the same settings confirms it", False),
     ]
-    caption = (
-        f"Cheapest setting for an error in scene {scene} ({precision.ERRORS[scene].replace('_', ' ')})"
-    )
+    error = work_precision.ERRORS[scene].replace("_", " ")
+    caption = f"Cheapest setting for an error in scene {scene} ({error})"
     return Table(caption, columns, [_row(bound, choice) for bound, choice in chosen])
 
 
@@ -48,7 +52,7 @@ def _row(bound: float, choice: Choice | None) -> list[Cell]:
     row = choice.row
     return [
         asked,
-        Cell(precision.label(row)),
+        Cell(work_precision.label(row)),
         Cell(text.number(100.0 * row["error"], 3, sign=True), row["error"]),
         Cell(text.number(row["cpu_seconds"], 2), row["cpu_seconds"]),
         Cell(standing(choice)),

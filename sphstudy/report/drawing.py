@@ -13,11 +13,11 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullLocator
 from numpy.typing import ArrayLike
 
+from sphstudy.analysis.results import Missing, Results
 from sphstudy.catalogue import scene_module
-from sphstudy.config import RunConfig
+from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.metrics.regularity import nearest_distances
-from sphstudy.results import Missing, Results
-from sphstudy.scenes.problem import Problem
+from sphstudy.model.problem import Problem
 
 TEXT_WIDTH = 6.7
 """Width (inch) of a figure as wide as a text column of 17 cm."""

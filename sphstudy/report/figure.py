@@ -12,8 +12,8 @@ from typing import Any, Generic, TypeVar
 
 from matplotlib.figure import Figure
 
+from sphstudy.analysis.results import Results
 from sphstudy.errors import ConfigurationError
-from sphstudy.results import Results
 
 STYLE = Path(__file__).parent / "figures.mplstyle"
 """The one style sheet of all figures."""

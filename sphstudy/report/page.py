@@ -8,15 +8,16 @@ from pathlib import Path
 import jinja2
 import pandas as pd
 
-from sphstudy import compare, text
-from sphstudy.claims import claim
-from sphstudy.claims.claim import NOT, PARTLY, REPRODUCED
-from sphstudy.compare import OUTSIDE, UNSTABLE, WITHIN, Comparison
+from sphstudy import text
+from sphstudy.analysis import compare
+from sphstudy.analysis.claims import claim
+from sphstudy.analysis.claims.claim import NOT, PARTLY, REPRODUCED
+from sphstudy.analysis.compare import OUTSIDE, UNSTABLE, WITHIN, Comparison
+from sphstudy.analysis.results import Results
+from sphstudy.analysis.stability.judge import DEGRADED
 from sphstudy.report import sections, tables
 from sphstudy.report.sections import Origin
 from sphstudy.report.tables import Table
-from sphstudy.results import Results
-from sphstudy.stability.judge import DEGRADED
 
 WORST = 8
 """Comparisons shown at once; all of them stand below, folded."""

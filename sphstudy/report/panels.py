@@ -10,11 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection
 from matplotlib.figure import Figure
 
+from sphstudy.analysis.stability.judge import DONE
 from sphstudy.metrics.von_mises import von_mises
-from sphstudy.record import configuration
+from sphstudy.numerics.solvers.solution import LAST_GOOD
 from sphstudy.report.drawing import TEXT_WIDTH
-from sphstudy.solve.solution import LAST_GOOD
-from sphstudy.stability.judge import DONE
+from sphstudy.store.record import configuration
 from sphstudy.text import number
 
 _STRESSES = ("stress_xx", "stress_yy", "stress_xy")

@@ -14,8 +14,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
+from sphstudy.analysis.results import Missing, Results
 from sphstudy.report.figure import STYLE, Animation, find
-from sphstudy.results import Missing, Results
 
 _SCREEN = 96
 """Pixels to an inch, as a page counts them."""

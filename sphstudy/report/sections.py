@@ -7,15 +7,16 @@ from pathlib import Path
 
 import pandas as pd
 
-from sphstudy import study, text
-from sphstudy.effects import effects
-from sphstudy.record import STATUS
+from sphstudy import text
+from sphstudy.analysis.effects import effects
+from sphstudy.analysis.results import Results
+from sphstudy.analysis.stability.cases import judged
+from sphstudy.configuration import study_file
 from sphstudy.report import cheapest, render, tables, time_steps
 from sphstudy.report.render import Drawing
+from sphstudy.report.stability_tables import bounds, quoted, stability_map
 from sphstudy.report.tables import Group, Setting, Table
-from sphstudy.results import Results
-from sphstudy.stability.cases import judged
-from sphstudy.stability.tables import bounds, quoted, stability_map
+from sphstudy.store.record import STATUS
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,7 @@ class Origin:
 
 def studies(results: Results) -> list[Results]:
     """The study, those that it includes and those shown with it, in the order of the page."""
-    names = [results.name, *study.members(results.name), *results.definition.shows]
+    names = [results.name, *study_file.members(results.name), *results.definition.shows]
     return [results.other(name) for name in dict.fromkeys(names)]
 
 

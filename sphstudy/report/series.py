@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from sphstudy.results import Results
+from sphstudy.analysis.results import Results
 
 PERCENT = 100.0
 """Factor from a relative number to percent."""

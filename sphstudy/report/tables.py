@@ -7,12 +7,13 @@ from typing import Any
 
 import pandas as pd
 
-from sphstudy import collect, text
+from sphstudy import text
+from sphstudy.analysis import dataset
+from sphstudy.analysis.compare import Comparison
+from sphstudy.analysis.effects import Effect
+from sphstudy.analysis.results import Results
 from sphstudy.catalogue import headline
-from sphstudy.compare import Comparison
-from sphstudy.config import RunConfig
-from sphstudy.effects import Effect
-from sphstudy.results import Results
+from sphstudy.configuration.run_settings import RunConfig
 
 COST = ("cpu_seconds", "steps", "particles")
 """Shown of every point beside the scene's own metrics."""
@@ -130,9 +131,9 @@ def points(group: Group) -> Table:
 
 def _told_apart(group: Group) -> dict[str, bool]:
     """Keys of the settings that differ, h and n always, and whether their values are numbers."""
-    swept: dict[str, list[Any]] = collect.dimensions(group.configs)
+    swept: dict[str, list[Any]] = dataset.dimensions(group.configs)
     if group.one_at_a_time:
-        swept = {key: swept[key] for key in collect.ALWAYS}
+        swept = {key: swept[key] for key in dataset.ALWAYS}
     return {
         key: all(isinstance(value, _NUMBER) and not isinstance(value, bool) for value in values)
         for key, values in swept.items()

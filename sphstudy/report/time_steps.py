@@ -3,19 +3,20 @@
 import numpy as np
 import pandas as pd
 
-from sphstudy import stable_steps, text
+from sphstudy import text
+from sphstudy.analysis import time_steps
+from sphstudy.analysis.results import Results
+from sphstudy.analysis.time_steps import SCHEME
 from sphstudy.report.tables import Cell, Column, Table
-from sphstudy.results import Results
-from sphstudy.stable_steps import SCHEME
 
 
 def tables(results: Results) -> list[Table]:
     """Both tables, of the study's own points, as far as it has any."""
     own = results.table[results.table["study"] == results.name]
-    found = stable_steps.limits(own)
+    found = time_steps.limits(own)
     if found.empty:
         return []
-    best = stable_steps.worth(stable_steps.changes(own))
+    best = time_steps.worth(time_steps.changes(own))
     return [_limits(found)] + ([_worth(best)] if len(best) else [])
 
 

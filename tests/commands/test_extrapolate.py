@@ -5,10 +5,10 @@ import pytest
 import xarray as xr
 
 from sphstudy.__main__ import main
-from sphstudy.convergence import with_uncertainty
-from sphstudy.record import STATUS
-from sphstudy.store import write
-from tests.test_extrapolation import swept
+from sphstudy.commands.extrapolate import with_uncertainty
+from sphstudy.store.record import STATUS
+from sphstudy.store.store import write
+from tests.analysis.test_extrapolation import swept
 
 
 @pytest.fixture

@@ -28,7 +28,7 @@ import sys
 from pathlib import Path
 
 def note(event, details):
-    if event == "import" and details[0] == "sphstudy.config":
+    if event == "import" and details[0] == "sphstudy.configuration.run_settings":
         Path("begun").touch()
 
 sys.addaudithook(note)
@@ -138,7 +138,7 @@ from sphstudy.__main__ import main
 
 class Swallowing:
     def find_spec(self, name, path, target=None):
-        if name == "sphstudy.batch":
+        if name == "sphstudy.running.sweep":
             try:
                 signal.raise_signal(signal.SIGINT)
             except KeyboardInterrupt:

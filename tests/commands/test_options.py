@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import sphstudy
-from sphstudy.record import STATUS
+from sphstudy.store.record import STATUS
 
 CRACK = {
     "scene": "mode2",

@@ -6,8 +6,8 @@ import sys
 
 import pytest
 
-from sphstudy.record import STATUS
-from sphstudy.store import read
+from sphstudy.store.record import STATUS
+from sphstudy.store.store import read
 
 COMMANDS = [["--help"], ["list"], ["describe", "scene", "plate"]]
 BUFFERED = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}

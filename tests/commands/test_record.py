@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import sphstudy
-from sphstudy.record import configuration
+from sphstudy.store.record import configuration
 
 SHORT = {"solve.load_steps": 600, "solve.settle_steps": 400, "solve.extend_steps": 300}
 
@@ -23,7 +23,7 @@ def test_states_are_kept_at_the_end_of_every_stage(run):
 
 
 def test_the_frame_has_reached_its_target_and_stays(run):
-    from sphstudy.exact import williams
+    from sphstudy.model.exact import williams
 
     frame = run["tag_frame"].values == 1
     x0, y0 = run["reference_x"].values[frame], run["reference_y"].values[frame]

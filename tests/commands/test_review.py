@@ -7,9 +7,10 @@ import pytest
 import xarray as xr
 
 import sphstudy
-from sphstudy import catalogue, provenance
+from sphstudy import catalogue
 from sphstudy.__main__ import main
-from sphstudy.store import read, write
+from sphstudy.store import provenance
+from sphstudy.store.store import read, write
 
 PLATE = "{scene: plate, h: [1.5, 1.7], n: [5, 7], scene.periods: 0.3}"
 CHOICES = """
@@ -40,7 +41,7 @@ def place(tmp_path_factory):
         patch.setitem(catalogue.FOLDERS, "reference", folder / "reference")
         real = provenance.provenance()
         patch.setattr(provenance, "provenance", lambda: {**real, "git_state": COMMIT})
-        patch.setattr("sphstudy.runner.provenance", provenance.provenance)
+        patch.setattr("sphstudy.running.one_run.provenance", provenance.provenance)
         for name in ("tiny", "choices"):
             assert main(["study", name, "hydra/launcher=basic"]) == 0
         yield folder

@@ -8,9 +8,10 @@ import pytest
 import xarray as xr
 
 import sphstudy
-from sphstudy import launching, metrics, runner
+from sphstudy import metrics
 from sphstudy.__main__ import main
-from sphstudy.record import STATUS
+from sphstudy.running import launching, one_run
+from sphstudy.store.record import STATUS
 
 SMALL = ["scene=plate", "scene.periods=0.3"]
 
@@ -144,14 +145,14 @@ def test_a_diverged_point_is_a_result_and_costs_no_other(tmp_path):
 
 def test_a_failed_point_is_in_the_dataset_and_in_the_exit_status(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    original = runner.measure
+    original = one_run.measure
 
     def fails_at_seven(run, config, modules):
         if config.n == 7:
             raise ZeroDivisionError("made for this test")
         return original(run, config, modules)
 
-    monkeypatch.setattr(runner, "measure", fails_at_seven)
+    monkeypatch.setattr(one_run, "measure", fails_at_seven)
     arguments = ["-m", *SMALL, "n=5,7", "hydra/launcher=basic"]
     assert main(arguments) == 1
     shown = capsys.readouterr()
@@ -159,7 +160,7 @@ def test_a_failed_point_is_in_the_dataset_and_in_the_exit_status(tmp_path, monke
     (log,) = (tmp_path / "results" / "runs").glob("*-n7-*.log")
     assert "Traceback" in (said := log.read_text())
     assert "made for this test" in said
-    monkeypatch.setattr(runner, "measure", original)
+    monkeypatch.setattr(one_run, "measure", original)
     assert main(arguments) == 1, "a failed point is neither a result nor tried again by itself"
     assert "retry=failed runs them again" in capsys.readouterr().err
     assert main([*arguments, "retry=failed"]) == 0
@@ -169,14 +170,14 @@ def test_metrics_of_another_version_are_measured_again_without_running(swept, mo
     folder, _ = swept
     monkeypatch.chdir(folder)
     changed = dict.fromkeys(("frequency_error",), 0)
-    monkeypatch.setattr("sphstudy.identity.metrics_version", lambda config: "another")
-    original = runner.measure
+    monkeypatch.setattr("sphstudy.store.identity.metrics_version", lambda config: "another")
+    original = one_run.measure
 
     def measure(run, config, modules):
         changed["frequency_error"] += 1
         return original(run, config, modules)
 
-    monkeypatch.setattr(runner, "measure", measure)
+    monkeypatch.setattr(one_run, "measure", measure)
     monkeypatch.setattr(launching.Launching, "run", None)
     dataset = sphstudy.sweep(scene="plate", h=[1.5, 1.7], n=[5, 7], **{"scene.periods": 0.3})
     assert changed["frequency_error"] == 4

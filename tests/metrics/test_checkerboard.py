@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from sphstudy.composition import session
+from sphstudy.configuration.composition import session
 from sphstudy.metrics import checkerboard
-from sphstudy.scenes.checkerboard import pattern
+from sphstudy.model.scenes.checkerboard import pattern
 
 LAME_AND_SHEAR = 1e6 * 0.3 / (1.3 * 0.4) + 3.0 * 1e6 / 2.6
 """λ + 3µ of the scene's material."""

@@ -7,10 +7,10 @@ import pytest
 import xarray as xr
 
 from sphstudy.catalogue import scene_module
-from sphstudy.composition import session
-from sphstudy.exact import williams
+from sphstudy.configuration.composition import session
 from sphstudy.metrics import fracture, norms
 from sphstudy.metrics.bending import column_angle
+from sphstudy.model.exact import williams
 
 E, NU, K = 6e6, 0.3, 35.8e3
 

@@ -5,7 +5,6 @@ import itertools
 import numpy as np
 import pytest
 
-from sphstudy.exact import williams
 from sphstudy.metrics.interaction_integral import (
     Annulus,
     fits,
@@ -13,7 +12,8 @@ from sphstudy.metrics.interaction_integral import (
     stress_intensities,
     weight_gradient,
 )
-from sphstudy.scenes.problem import lattice
+from sphstudy.model.exact import williams
+from sphstudy.model.problem import lattice
 
 E, NU, K, SIDE = 6e6, 0.3, 35.8e3, 0.2
 T = K / np.sqrt(np.pi * 0.5 * SIDE)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from sphstudy.metrics import patch as metric
-from sphstudy.record import fields
-from sphstudy.scenes import patch
-from sphstudy.solve.solution import Snapshot, Solution
-from tests.scenes.test_tension import configured
+from sphstudy.model.scenes import patch
+from sphstudy.numerics.solvers.solution import Snapshot, Solution
+from sphstudy.store.record import fields
+from tests.model.scenes.test_tension import configured
 
 
 def followed():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from sphstudy.composition import session
+from sphstudy.configuration.composition import session
 from sphstudy.metrics import period
 
 

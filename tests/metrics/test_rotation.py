@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from sphstudy.composition import session
-from sphstudy.exact.spinning_square import spinning_square
+from sphstudy.configuration.composition import session
 from sphstudy.metrics import rotation
-from sphstudy.scenes import spin
+from sphstudy.model.exact.spinning_square import spinning_square
+from sphstudy.model.scenes import spin
 
 N, TURNS, RATE = 6, 3, 50.0
 

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from sphstudy.catalogue import scene_module
-from sphstudy.composition import session
+from sphstudy.configuration.composition import session
 from sphstudy.metrics import roughness
 from sphstudy.metrics.von_mises import von_mises
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from sphstudy.composition import session
-from sphstudy.exact.waves import longitudinal_speed, stopped_bar, stopped_chain
+from sphstudy.configuration.composition import session
 from sphstudy.metrics import sharp
-from sphstudy.scenes.sharp import build
+from sphstudy.model.exact.waves import longitudinal_speed, stopped_bar, stopped_chain
+from sphstudy.model.scenes.sharp import build
 
 
 @cache

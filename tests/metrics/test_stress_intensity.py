@@ -5,10 +5,10 @@ import pytest
 import xarray as xr
 
 from sphstudy.catalogue import scene_module
-from sphstudy.composition import session
-from sphstudy.exact import williams
+from sphstudy.configuration.composition import session
 from sphstudy.metrics import stress_intensity
-from sphstudy.sph import constitutive
+from sphstudy.model.exact import williams
+from sphstudy.numerics.sph import constitutive
 
 E, NU, K = 6e6, 0.3, 35.8e3
 

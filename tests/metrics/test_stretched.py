@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from sphstudy.exact import homogeneous
 from sphstudy.metrics import equibiaxial_stress, stretched, uniaxial_stress
-from sphstudy.record import fields
-from sphstudy.scenes import radial, tension
-from sphstudy.solve.solution import Snapshot, Solution
-from tests.scenes.test_tension import configured
+from sphstudy.model.exact import homogeneous
+from sphstudy.model.scenes import radial, tension
+from sphstudy.numerics.solvers.solution import Snapshot, Solution
+from sphstudy.store.record import fields
+from tests.model.scenes.test_tension import configured
 
 
 def held(scene, *settings):

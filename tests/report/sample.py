@@ -8,14 +8,16 @@ from types import ModuleType
 import xarray as xr
 from matplotlib.figure import Figure
 
-from sphstudy import catalogue, identity, record, results
-from sphstudy.claims import claim
-from sphstudy.claims.claim import NOT, Finding
+from sphstudy import catalogue
+from sphstudy.analysis import results
+from sphstudy.analysis.claims import claim
+from sphstudy.analysis.claims.claim import NOT, Finding
+from sphstudy.analysis.results import Missing
 from sphstudy.metrics.metric import Metric
 from sphstudy.report import page
 from sphstudy.report.figure import figure
-from sphstudy.results import Missing
-from sphstudy.store import Store, write
+from sphstudy.store import identity, record
+from sphstudy.store.store import Store, write
 
 COMMIT = "0123456789abcdef0123456789abcdef01234567"
 STUDY = """

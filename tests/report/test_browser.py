@@ -10,7 +10,7 @@ import subprocess
 
 import pytest
 
-from sphstudy.composition import session
+from sphstudy.configuration.composition import session
 from tests.report import sample
 
 pytestmark = pytest.mark.slow

@@ -8,9 +8,11 @@ import pytest
 from matplotlib.collections import PolyCollection
 
 import sphstudy
-from sphstudy import results, study
-from sphstudy.composition import session
-from sphstudy.exact import beam, williams
+from sphstudy.analysis import results
+from sphstudy.analysis.results import Missing
+from sphstudy.configuration import study_file
+from sphstudy.configuration.composition import session
+from sphstudy.model.exact import beam, williams
 from sphstudy.report import figure
 from sphstudy.report.figures import (
     bending,
@@ -22,7 +24,6 @@ from sphstudy.report.figures import (
     release_rates,
     von_mises,
 )
-from sphstudy.results import Missing
 
 STUDIES = ("plate", "bending", "bending_long", "mode1", "mode2", "choices", "conjectures")
 MODULES = (plate, von_mises, bending, crack, crack_field, release_rates, choices, conjectures)
@@ -37,7 +38,7 @@ SETTINGS = {
 def listed():
     """Every figure drawn from data with the study that lists it."""
     for name in STUDIES:
-        for label in study.load(name).figures:
+        for label in study_file.load(name).figures:
             definition = figure.find(label)
             if any(definition in vars(module).values() for module in MODULES):
                 yield pytest.param(name, definition, id=f"{name}-{definition.number}")

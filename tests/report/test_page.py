@@ -5,11 +5,12 @@ import re
 
 import pytest
 
-from sphstudy import compare, text
-from sphstudy.compare import OUTSIDE, WITHIN, Comparison
-from sphstudy.composition import session
+from sphstudy import text
+from sphstudy.analysis import compare
+from sphstudy.analysis.compare import OUTSIDE, WITHIN, Comparison
+from sphstudy.analysis.results import Missing
+from sphstudy.configuration.composition import session
 from sphstudy.report import page, tables
-from sphstudy.results import Missing
 from tests.report import sample
 
 GRID = "Points of block grid, scene plate"

@@ -6,11 +6,11 @@ import matplotlib.style
 import numpy as np
 import pytest
 
-from sphstudy import precision, results
-from sphstudy.composition import session
+from sphstudy.analysis import results, work_precision
+from sphstudy.analysis.results import Missing
+from sphstudy.configuration.composition import session
 from sphstudy.report import cheapest, figure
 from sphstudy.report.figures import precision as figures
-from sphstudy.results import Missing
 
 SCENES = {
     "plate": figures.plate,
@@ -34,7 +34,7 @@ def full(empty):
     table = empty.table.assign(status="done", steps=100.0, compile_seconds=3.0)
     table["particles"] = 12.0 * table["n"] ** 2
     table["cpu_seconds"] = 1e-5 * table["particles"] * table["h"]
-    for metric in precision.ERRORS.values():
+    for metric in work_precision.ERRORS.values():
         table[metric] = -table["h"] / table["n"]
     beyond = table["block"].str.endswith("beyond")
     table.loc[beyond, "status"] = "diverged"
@@ -96,8 +96,8 @@ def test_a_table_for_each_scene_names_the_cheapest(full):
     assert len(found) == len(SCENES)
     plate = next(one for one in found if "scene plate" in one.caption)
     assert [row[0].text for row in plate.rows] == ["5", "1", "0.100", "0.0100"]
-    points = precision.points(full.table, "plate")
-    choice = precision.cheapest(points, 0.05)
-    assert plate.rows[0][1].text == precision.label(choice.row)
+    points = work_precision.points(full.table, "plate")
+    choice = work_precision.cheapest(points, 0.05)
+    assert plate.rows[0][1].text == work_precision.label(choice.row)
     assert plate.rows[0][4].text == "confirmed by all finer resolutions"
     assert plate.rows[2][1].text == cheapest.NONE

@@ -6,13 +6,14 @@ import pytest
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from sphstudy import results, study
-from sphstudy.composition import session
-from sphstudy.exact import beam
+from sphstudy.analysis import results
+from sphstudy.configuration import study_file
+from sphstudy.configuration.composition import session
+from sphstudy.model.exact import beam
+from sphstudy.numerics.sph.crack import visible
 from sphstudy.report import figure
 from sphstudy.report.drawing import built, first_configuration, footprints
 from sphstudy.report.figures import crack_geometry, method, plate_geometry
-from sphstudy.sph.crack import visible
 
 DRAWN_FROM = {"method": "plate", "plate_geometry": None, "crack_geometry": "mode1"}
 FIGURES = {
@@ -55,7 +56,7 @@ def test_every_figure_draws_and_its_study_lists_it(definition, draw):
     assert drawing.axes
     for axes in drawing.axes:
         assert axes.get_xlabel() or axes.get_shared_x_axes().get_siblings(axes) != [axes]
-    assert definition.name in study.load(FIGURES[definition]).figures
+    assert definition.name in study_file.load(FIGURES[definition]).figures
 
 
 def test_the_kernel_and_the_gaussian_have_area_one_and_the_same_spread(draw):

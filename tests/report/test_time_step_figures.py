@@ -6,11 +6,12 @@ import matplotlib.style
 import numpy as np
 import pytest
 
-from sphstudy import results, stable_steps
-from sphstudy.composition import session
-from sphstudy.report import figure, time_steps
+from sphstudy.analysis import results, time_steps
+from sphstudy.analysis.results import Missing
+from sphstudy.configuration.composition import session
+from sphstudy.report import figure
+from sphstudy.report import time_steps as step_tables
 from sphstudy.report.figures import time_step as figures
-from sphstudy.results import Missing
 
 NONE = "no stable step found down to C = 0.2"
 ERROR = -0.02
@@ -52,8 +53,8 @@ def drawn(definition, found):
 
 
 def test_limits_are_read_with_the_integrator_that_ran(full):
-    found = stable_steps.limits(full.table)
-    schemes = set(found[stable_steps.SCHEME].itertuples(index=False, name=None))
+    found = time_steps.limits(full.table)
+    schemes = set(found[time_steps.SCHEME].itertuples(index=False, name=None))
     with_viscosity = {("tl", "heun", True), ("thesis", "heun", True)}
     assert (
         schemes
@@ -67,7 +68,7 @@ def test_limits_are_read_with_the_integrator_that_ran(full):
 
 
 def test_changes_are_against_the_shortest_step(full):
-    found = stable_steps.changes(full.table)
+    found = time_steps.changes(full.table)
     assert set(found["method"]) == {"tl", "thesis"}
     for _, own in found.groupby(["method", "h"]):
         assert own["courant"].is_monotonic_increasing
@@ -79,8 +80,8 @@ def test_changes_are_against_the_shortest_step(full):
 
 
 def test_the_step_worth_taking_is_the_longest_that_changes_little(full):
-    found = stable_steps.changes(full.table)
-    best = stable_steps.worth(found)
+    found = time_steps.changes(full.table)
+    best = time_steps.worth(found)
     assert len(best) == 8
     for _, row in best.iterrows():
         own = found[(found["method"] == row["method"]) & (found["h"] == row["h"])]
@@ -89,17 +90,17 @@ def test_the_step_worth_taking_is_the_longest_that_changes_little(full):
 
 
 def test_a_good_step_beyond_a_bad_one_is_not_worth_taking(full):
-    found = stable_steps.changes(full.table)
+    found = time_steps.changes(full.table)
     own = found[(found["method"] == "thesis") & (found["h"] == 1.9)].copy()
     own.loc[own["courant"] == 0.6, "change"] = 0.2
-    assert stable_steps.worth(own)["courant"].tolist() == [0.4]
+    assert time_steps.worth(own)["courant"].tolist() == [0.4]
 
 
 def test_an_unstable_step_that_did_no_harm_yet_is_not_worth_taking(full):
-    found = stable_steps.changes(full.table)
+    found = time_steps.changes(full.table)
     own = found[(found["method"] == "thesis") & (found["h"] == 1.3)].assign(change=0.0)
     assert own["share"].max() > 1.0
-    assert stable_steps.worth(own)["courant"].tolist() == [1.2]
+    assert time_steps.worth(own)["courant"].tolist() == [1.2]
 
 
 def test_every_limit_is_drawn_beside_its_prediction(full):
@@ -120,7 +121,7 @@ def test_every_limit_is_drawn_beside_its_prediction(full):
 
 
 def test_steps_are_drawn_with_the_one_worth_taking_ringed(full):
-    found = stable_steps.worth(stable_steps.changes(full.table))
+    found = time_steps.worth(time_steps.changes(full.table))
     drawing = drawn(figures.worth, full)
     assert len(drawing.axes) == 2
     for axes, method in zip(drawing.axes, ("tl", "thesis"), strict=True):
@@ -135,16 +136,16 @@ def test_an_empty_store_is_said_to_lack_data(empty):
     for definition in (figures.limits, figures.worth):
         with pytest.raises(Missing):
             drawn(definition, empty)
-    assert time_steps.tables(empty) == []
+    assert step_tables.tables(empty) == []
 
 
 def test_tables_name_limits_and_what_is_worth_taking(full):
-    limits, worth = time_steps.tables(full)
+    limits, worth = step_tables.tables(full)
     (row,) = (r for r in limits.rows if [c.text for c in r[:5]] == ["tl", "verlet", "no", "0.3", "5"])
     assert [cell.text for cell in row[5:]] == [f"{h:.3f} (0.9850)" for h in (1.3, 1.5, 1.7, 1.9)]
     (row,) = (r for r in limits.rows if [c.text for c in r[:5]] == ["tl", "heun", "no", "0.49", "5"])
     assert [cell.text for cell in row[5:]] == [NONE] * 4
-    best = stable_steps.worth(stable_steps.changes(full.table))
+    best = time_steps.worth(time_steps.changes(full.table))
     assert len(worth.rows) == len(best)
     for row, (_, expected) in zip(worth.rows, best.iterrows(), strict=True):
         assert row[4].order == expected["courant"]

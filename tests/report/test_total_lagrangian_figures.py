@@ -9,21 +9,22 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
 
 import sphstudy
-from sphstudy import results, study
-from sphstudy.composition import session
-from sphstudy.exact import williams
+from sphstudy.analysis import results
+from sphstudy.analysis.results import Missing
+from sphstudy.configuration import study_file
+from sphstudy.configuration.composition import session
 from sphstudy.metrics.regularity import nearest_distances
 from sphstudy.metrics.von_mises import von_mises
+from sphstudy.model.exact import williams
 from sphstudy.report import figure
 from sphstudy.report.figures import crack_field, side_by_side, side_by_side_fields, total_lagrangian
-from sphstudy.results import Missing
 
 MODULES = (side_by_side, side_by_side_fields, total_lagrangian)
 STUDIES = ("thesis_vs_tl", "tl_plate", "tl_bending", "tl_mode1", "tl_mode2")
 LISTED = [
     pytest.param(name, figure.find(label), id=label)
     for name in STUDIES
-    for label in study.load(name).figures
+    for label in study_file.load(name).figures
 ]
 FEW_STEPS = {"solve.load_steps": 400, "solve.settle_steps": 200, "solve.extend_steps": 100}
 SETTINGS = {

@@ -4,13 +4,13 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from sphstudy.exact import beam
+from sphstudy.analysis.results import Missing, Results
 from sphstudy.metrics.metric import snapshot
-from sphstudy.record import configuration
+from sphstudy.model.exact import beam
 from sphstudy.report.drawing import footprints
 from sphstudy.report.figure import figure
 from sphstudy.report.series import legend_above
-from sphstudy.results import Missing, Results
+from sphstudy.store.record import configuration
 
 _CELL = {"h": 1.7, "n": 21}
 _MILLIMETRE = 1e-3

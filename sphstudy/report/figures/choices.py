@@ -9,10 +9,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter
 
-from sphstudy.effects import CONTROL, effects
+from sphstudy.analysis.effects import CONTROL, effects
+from sphstudy.analysis.results import Missing, Results
 from sphstudy.report.figure import figure
 from sphstudy.report.series import PERCENT
-from sphstudy.results import Missing, Results
 
 _CAPTION = (
     "each mark is the change of a metric (title, with its value in the base) when one setting is "

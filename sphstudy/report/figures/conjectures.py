@@ -7,11 +7,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from sphstudy.analysis.results import Missing, Results
 from sphstudy.metrics.roughness import VISIBLE
+from sphstudy.numerics.sph.kernel import KERNELS, curvature
 from sphstudy.report.figure import figure
 from sphstudy.report.series import PERCENT, RADIUS, legend_above
-from sphstudy.results import Missing, Results
-from sphstudy.sph.kernel import KERNELS, curvature
 
 _STRESS = "method.artificial_stress"
 _PLACES = "relative smoothing radius $\\tilde{h}$, kernel"

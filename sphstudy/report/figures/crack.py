@@ -4,12 +4,12 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from sphstudy.exact import williams
+from sphstudy.analysis.results import Results
 from sphstudy.metrics.metric import snapshot
-from sphstudy.record import configuration
+from sphstudy.model.exact import williams
 from sphstudy.report.figure import figure
 from sphstudy.report.series import legend_above
-from sphstudy.results import Results
+from sphstudy.store.record import configuration
 
 _CELL = {"h": 1.7, "n": 60}
 _MILLIMETRE, _MEGAPASCAL = 1e-3, 1e6

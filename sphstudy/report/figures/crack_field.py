@@ -5,12 +5,12 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from sphstudy.exact import williams
+from sphstudy.analysis.results import Results
 from sphstudy.metrics.metric import snapshot
-from sphstudy.record import configuration
+from sphstudy.model.exact import williams
 from sphstudy.report.drawing import footprints
 from sphstudy.report.figure import figure
-from sphstudy.results import Results
+from sphstudy.store.record import configuration
 
 _KILOPASCAL = 1e3
 

@@ -7,13 +7,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from sphstudy.analysis.results import Results
 from sphstudy.catalogue import method_module
-from sphstudy.config import RunConfig
+from sphstudy.configuration.run_settings import RunConfig
+from sphstudy.model.problem import Body, Problem, Stage
+from sphstudy.numerics.sph.crack import line_of_sight, visible
 from sphstudy.report.drawing import TEXT_WIDTH, built, first_configuration, geometry, particles
 from sphstudy.report.figure import figure
-from sphstudy.results import Results
-from sphstudy.scenes.problem import Body, Problem, Stage
-from sphstudy.sph.crack import line_of_sight, visible
 
 _MAGNIFICATION = 10
 

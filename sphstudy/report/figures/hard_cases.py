@@ -5,10 +5,10 @@ Shown are those runs of the scene that keep frames (record.frames), case by case
 
 from matplotlib.figure import Figure
 
+from sphstudy.analysis.results import Missing, Results
+from sphstudy.analysis.stability.cases import judged
 from sphstudy.report.figure import Animation, family
 from sphstudy.report.panels import Panels, Quantity, Shown, mises, pressure
-from sphstudy.results import Missing, Results
-from sphstudy.stability.cases import judged
 
 _FRAMES = 40
 """An animation has no more of them."""

@@ -5,12 +5,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
+from sphstudy.analysis.results import Results
+from sphstudy.model.problem import lattice
+from sphstudy.numerics.sph.crack import Crack, line_of_sight, visible
+from sphstudy.numerics.sph.kernel import KERNELS, value
 from sphstudy.report.drawing import TEXT_WIDTH, built, first_configuration, particles
 from sphstudy.report.figure import figure
-from sphstudy.results import Results
-from sphstudy.scenes.problem import lattice
-from sphstudy.sph.crack import Crack, line_of_sight, visible
-from sphstudy.sph.kernel import KERNELS, value
 
 
 @figure(

@@ -3,11 +3,11 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from sphstudy.exact import beam
-from sphstudy.record import configuration
+from sphstudy.analysis.results import Results
+from sphstudy.model.exact import beam
 from sphstudy.report.figure import figure
 from sphstudy.report.series import PERCENT, RADIUS, curves, legend_above, ring_unstable
-from sphstudy.results import Results
+from sphstudy.store.record import configuration
 
 _MILLIMETRE = 1e-3
 

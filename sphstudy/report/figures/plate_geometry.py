@@ -5,8 +5,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Rectangle
 
-from sphstudy.exact import beam
+from sphstudy.analysis.results import Results
 from sphstudy.metrics.bending import column_angle
+from sphstudy.model.exact import beam
+from sphstudy.model.problem import Problem
 from sphstudy.report.drawing import (
     TEXT_WIDTH,
     built,
@@ -16,8 +18,6 @@ from sphstudy.report.drawing import (
     particles,
 )
 from sphstudy.report.figure import figure
-from sphstudy.results import Results
-from sphstudy.scenes.problem import Problem
 
 _EXAGGERATION = 4
 _COARSE = 9

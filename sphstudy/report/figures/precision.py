@@ -8,13 +8,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from sphstudy import prediction
-from sphstudy.precision import ERRORS, front, points
-from sphstudy.prediction import Measurement, Rates
+from sphstudy.analysis import cost_forecast
+from sphstudy.analysis.cost_forecast import Measurement, Rates
+from sphstudy.analysis.results import Missing, Results
+from sphstudy.analysis.work_precision import ERRORS, front, points
 from sphstudy.report.drawing import TEXT_WIDTH, plain_logarithmic
 from sphstudy.report.figure import figure
 from sphstudy.report.series import PERCENT
-from sphstudy.results import Missing, Results
 
 _LOOKS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ("thesis", "explicit"): ("thesis, stepped", {"marker": "o", "color": "C0"}),
@@ -106,7 +106,7 @@ def _left_out(results: Results) -> pd.DataFrame:
     known = []
     for row, point in table.iterrows():
         config = results.config_at(row)
-        work = prediction.work(config, point["steps"], point["particles"])
+        work = cost_forecast.work(config, point["steps"], point["particles"])
         known.append(Measurement(point["record"], config.flat(), work, point["cpu_seconds"]))
     if len(known) < 2:
         raise Missing(f"{results.name}: fewer than two runs are done")

@@ -2,9 +2,9 @@
 
 from matplotlib.figure import Figure
 
+from sphstudy.analysis.results import Results
 from sphstudy.report.figure import figure
 from sphstudy.report.series import PERCENT, RADIUS, curves, legend_above
-from sphstudy.results import Results
 
 _DISPLACEMENTS = {"u_x_rms": "$u_x$", "u_y_rms": "$u_y$"}
 _STRESSES = {

@@ -7,10 +7,10 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from sphstudy.analysis.results import Missing, Results
 from sphstudy.report.drawing import TEXT_WIDTH, plain_logarithmic
 from sphstudy.report.figure import figure
 from sphstudy.report.series import PERCENT, RADIUS, curves, legend_above, ring_unstable
-from sphstudy.results import Missing, Results
 
 METHODS = {"thesis": "thesis", "tl": "total Lagrangian"}
 """Methods that are compared, as the configuration and as a reader calls them, in the order of panels."""

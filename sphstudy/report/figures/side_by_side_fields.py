@@ -7,16 +7,16 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from sphstudy.exact import williams
+from sphstudy.analysis.results import Results
 from sphstudy.metrics.metric import snapshot
 from sphstudy.metrics.von_mises import von_mises
-from sphstudy.record import configuration
+from sphstudy.model.exact import williams
 from sphstudy.report.drawing import TEXT_WIDTH, beside_wall, footprints
 from sphstudy.report.figure import figure
 from sphstudy.report.figures.side_by_side import METHODS
 from sphstudy.report.figures.von_mises import snapshot_at
 from sphstudy.report.series import legend_above
-from sphstudy.results import Results
+from sphstudy.store.record import configuration
 
 _KILOPASCAL = 1e3
 

@@ -5,9 +5,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from sphstudy.benchmarks.speed.terms import Time, term_costs
 from sphstudy.report.drawing import TEXT_WIDTH, plain_logarithmic
 from sphstudy.report.series import legend_above
-from sphstudy.speed.terms import Time, term_costs
 
 _MARKERS = {"lattice": "o", "perturbed": "s", "shuffled": "^"}
 _COLOURS = {"thesis": "C0", "tl": "C1"}

@@ -9,11 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
+from sphstudy.analysis.results import Missing, Results
+from sphstudy.analysis.stability.cases import Case, by_place, judged
+from sphstudy.analysis.stability.judge import DEGRADED, DIVERGED, DONE, Judgement
 from sphstudy.report.drawing import TEXT_WIDTH
 from sphstudy.report.figure import figure
-from sphstudy.results import Missing, Results
-from sphstudy.stability.cases import Case, by_place, judged
-from sphstudy.stability.judge import DEGRADED, DIVERGED, DONE, Judgement
 from sphstudy.text import number
 
 _LOOKS: dict[str, tuple[str, str, str]] = {

@@ -9,12 +9,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from sphstudy import stable_steps
+from sphstudy.analysis import time_steps
+from sphstudy.analysis.results import Missing, Results
+from sphstudy.analysis.time_steps import HARMLESS
 from sphstudy.report.drawing import TEXT_WIDTH
 from sphstudy.report.figure import figure
 from sphstudy.report.series import PERCENT, RADIUS
-from sphstudy.results import Missing, Results
-from sphstudy.stable_steps import HARMLESS
 
 PANELS = {
     ("tl", "verlet"): "total Lagrangian, Verlet",
@@ -41,7 +41,7 @@ _FLOOR = 1e-6
     "an undamped mode by 1 + (ω Δt)⁴/4 in a step, whatever the step.",
 )
 def limits(results: Results) -> Figure:
-    found = stable_steps.limits(results.table)
+    found = time_steps.limits(results.table)
     found = found[found["n"] == found["n"].min()]
     panels = [panel for panel in PANELS if not _of(found, panel).empty]
     if not panels:
@@ -88,11 +88,11 @@ def _limit(axes: Axes, own: pd.DataFrame, number: int) -> None:
     "that diverged. What varies below 10⁻⁴ is the fit of ω to samples; below 10⁻⁶ it is drawn there.",
 )
 def worth(results: Results) -> Figure:
-    found = stable_steps.changes(results.table)
+    found = time_steps.changes(results.table)
     panels = [panel for panel in PANELS if not _of(found, panel).empty]
     if not panels:
         raise Missing(f"{results.name}: no runs at shares of a largest stable step are stored")
-    best = stable_steps.worth(found)
+    best = time_steps.worth(found)
     drawing = Figure(figsize=(TEXT_WIDTH, 4.0), layout="constrained")
     for axes, panel in _axes(drawing, panels):
         rings = _of(best, panel)

@@ -8,16 +8,16 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from sphstudy.analysis.results import Missing, Results
+from sphstudy.analysis.richardson import extrapolate
 from sphstudy.metrics.regularity import EARLY
-from sphstudy.record import configuration
 from sphstudy.report.drawing import TEXT_WIDTH, beside_wall, plain_logarithmic
 from sphstudy.report.figure import figure
 from sphstudy.report.figures import crack_field
 from sphstudy.report.figures.side_by_side_fields import LONG, NEAR
 from sphstudy.report.figures.von_mises import snapshot_at
 from sphstudy.report.series import PERCENT, RADIUS, curves, legend_above
-from sphstudy.results import Missing, Results
-from sphstudy.richardson import extrapolate
+from sphstudy.store.record import configuration
 
 _MILLIMETRE = 1e-3
 

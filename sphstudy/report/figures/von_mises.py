@@ -4,11 +4,11 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from sphstudy.analysis.results import Missing, Results
 from sphstudy.metrics.von_mises import von_mises
-from sphstudy.record import configuration
 from sphstudy.report.drawing import footprints
 from sphstudy.report.figure import figure
-from sphstudy.results import Missing, Results
+from sphstudy.store.record import configuration
 
 _KILOPASCAL = 1e3
 

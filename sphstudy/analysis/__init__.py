@@ -1,0 +1,1 @@
+"""What came out: datasets, comparison, extrapolation, work against precision. Reads only."""

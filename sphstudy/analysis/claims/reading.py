@@ -1,0 +1,128 @@
+"""What rules read from results: the thesis's grids, whole or not at all, and their numbers in words."""
+
+import pandas as pd
+
+from sphstudy.analysis.claims.claim import NOT, PARTLY, REPRODUCED
+from sphstudy.analysis.effects import CONTROL
+from sphstudy.analysis.results import Missing, Results
+from sphstudy.text import number
+
+SMOOTHING = (1.3, 1.5, 1.7, 1.9)
+"""Relative smoothing radii h̃ of every grid of the thesis."""
+
+PLATE, CRACK = (9, 15, 21), (40, 50, 60)
+"""Resolutions of its grids: rows of the plate, columns of the square."""
+
+
+def whole_grid(results: Results, metric: str, resolutions: tuple[int, ...]) -> pd.DataFrame:
+    """A metric in the cells of the thesis's grid, h (index) and n (columns).
+
+    Raises Missing, naming the cells, if any has no value.
+    """
+    grid = results.grid(metric).reindex(index=list(SMOOTHING), columns=list(resolutions))
+    if grid.isna().any(axis=None):
+        raise Missing(f"{results.name}: no {metric} at (n, h̃) = {cells(grid.isna())}")
+    return grid
+
+
+def unstable(results: Results, grid: pd.DataFrame) -> pd.DataFrame:
+    """The cells of the grid, as a mask, that the study says sit in an instability."""
+    marks = [entry.holds for entry in results.definition.unstable]
+    flags = [[any(holds({"h": h, "n": n}) for holds in marks) for n in grid.columns] for h in grid.index]
+    return pd.DataFrame(flags, index=grid.index, columns=grid.columns)
+
+
+def falls(grid: pd.DataFrame) -> pd.DataFrame:
+    """Whether a size falls from each n to the next: h (index) by the n that is gone to (columns)."""
+    return grid.abs().diff(axis=1).iloc[:, 1:] < 0.0
+
+
+def best_smoothing(grid: pd.DataFrame) -> pd.Series:
+    """For each n the h̃ where the size is smallest."""
+    return grid.abs().idxmin()
+
+
+def verdict(everything: bool, core: bool) -> str:
+    """REPRODUCED if everything holds, PARTLY if only the core of the claim does, NOT otherwise."""
+    return REPRODUCED if everything else PARTLY if core else NOT
+
+
+def within(grid: pd.DataFrame, lower: float, upper: float) -> pd.DataFrame:
+    """The cells, as a mask, whose values lie in a range."""
+    return (grid >= lower) & (grid <= upper)
+
+
+def count(mask: pd.DataFrame) -> int:
+    """How many cells of a mask are set."""
+    return int(mask.to_numpy().sum())
+
+
+def everywhere(mask: pd.DataFrame) -> bool:
+    """Whether all cells of a mask are set."""
+    return bool(mask.to_numpy().all())
+
+
+def cells(mask: pd.DataFrame) -> str:
+    """The cells that a mask holds, as the thesis writes them: (n, h̃)."""
+    return ", ".join(f"({n}, {h:g})" for n in mask.columns for h in mask.index if mask.at[h, n])
+
+
+def percent(value: float) -> str:
+    """A share in per cent, with its sign."""
+    return f"{number(100.0 * value, 3, sign=True)} %"
+
+
+def size(value: float) -> str:
+    """A share in per cent that has no sign."""
+    return f"{number(100.0 * value, 3)} %"
+
+
+def span(grid: pd.DataFrame) -> str:
+    """Smallest and largest value of a grid of shares."""
+    return f"{percent(grid.min(axis=None))} to {percent(grid.max(axis=None))}"
+
+
+def interval(limits: tuple[float, float], scale: float = 1.0) -> str:
+    """A range in words, scaled; with signs if it begins below zero."""
+    sign = "+" if limits[0] < 0.0 else ""
+    return " to ".join(f"{scale * limit:{sign}.3g}" for limit in limits).replace("-", "−")
+
+
+def choices(best: pd.Series) -> str:
+    """The h̃ that is best for each n."""
+    if best.nunique() == 1:
+        return f"{best.iloc[0]:g} for each n"
+    return ", ".join(f"{h:g} (n = {n})" for n, h in best.items())
+
+
+def option(results: Results, scene: str, changed: str, metric: str) -> float | None:
+    """A metric where the study `choices` varies one setting ("key=value"; "": none) of a scene.
+
+    None if that is not in the store.
+    """
+    try:
+        return results.other("choices").value(metric, {"varied": changed}, scene)
+    except Missing:
+        return None
+
+
+def options(results: Results, scene: str, metric: str) -> str:
+    """In words: how far the choices that the thesis leaves open move a relative error, each on its own.
+
+    Empty as long as one of them is not in the store.
+    """
+    points = results.other("choices").select(block=scene)
+    if metric not in points or (points["status"] == "missing").any():
+        return ""
+    changed = points["varied"].ne("") & ~points["varied"].str.startswith(CONTROL)
+    known, first = points[changed & points[metric].notna()], points.iloc[0]
+    least, most = known.loc[known[metric].idxmin()], known.loc[known[metric].idxmax()]
+    return (
+        f"each alone, the choices left open give {percent(least[metric])} ({least['varied']}) to "
+        f"{percent(most[metric])} ({most['varied']}) at ({first['n']}, {first['h']:g})"
+    )
+
+
+def because(*reasons: str) -> str:
+    """The reasons that there are, in one sentence."""
+    return "; ".join(filter(None, reasons))

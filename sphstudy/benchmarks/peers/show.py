@@ -1,0 +1,96 @@
+"""Table and figure of the peers' dataset."""
+
+from itertools import cycle
+from pathlib import Path
+from typing import Any
+
+import matplotlib.style
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+
+from sphstudy.benchmarks.peers.dataset import STATUS
+from sphstudy.console import console
+from sphstudy.report.drawing import TEXT_WIDTH, plain_logarithmic
+from sphstudy.report.figure import STYLE
+from sphstudy.report.series import PERCENT
+from sphstudy.text import number
+
+_COLUMNS = {
+    "error (%)": lambda point: f"{PERCENT * float(point['frequency_error_2d']):+.3f}",
+    "CPU (s)": lambda point: number(float(point["cpu_seconds"])),
+    "repeats": lambda point: str(int(np.isfinite(point["cpu_seconds_repeat"]).sum())),
+    "steps": lambda point: number(float(point["steps"])),
+    "particles": lambda point: number(float(point["particles"])),
+    "Δt (s)": lambda point: number(float(point["time_step"])),
+    "C": lambda point: number(float(point["courant"])),
+    "of limit": lambda point: number(float(point["limit_share"])),
+}
+
+
+def print_table(found: xr.Dataset) -> None:
+    """A line a point, then releases and settings of each code."""
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    for name in ("code", "n", "setting", "status", *_COLUMNS):
+        table.add_column(name, justify="left" if name == "code" else "right")
+    for i in range(found.sizes["point"]):
+        point = found.isel(point=i)
+        done = STATUS[int(point["status"])] == "done"
+        labels = [str(point[name].item()) for name in ("code", "n", "setting")]
+        own = [show(point) if done or name != "error (%)" else "–" for name, show in _COLUMNS.items()]
+        table.add_row(*labels, STATUS[int(point["status"])], *own)
+    console().print(table)
+    for code in dict.fromkeys(found["code"].values):
+        points = found.isel(point=np.flatnonzero(found["code"].values == code))
+        print(f"{code}: {points['versions'].values[0]}")
+        print(f"    {points['settings'].values[0]}")
+        for message in dict.fromkeys(filter(None, points["message"].values)):
+            print(f"    {message}")
+    print(f"{found.attrs['processor']}, {found.attrs['date_created']}")
+
+
+def figure(found: xr.Dataset) -> Figure:
+    """Size of the error over CPU seconds: a marker a code, larger with n; hollow at the usual setting."""
+    drawing = Figure(figsize=(TEXT_WIDTH, 4.0), layout="constrained")
+    axes = drawing.subplots()
+    done = found.isel(point=np.flatnonzero(found["status"].values == STATUS.index("done")))
+    sizes = sorted(set(done["n"].values))
+    handles = []
+    for i, (code, marker) in enumerate(
+        zip(dict.fromkeys(done["code"].values), cycle("os^Dv*P"), strict=False)
+    ):
+        points = done.isel(point=np.flatnonzero(done["code"].values == code))
+        look: dict[str, Any] = {"linestyle": "none", "marker": marker, "color": f"C{i % 7}"}
+        for n, setting, seconds, error in zip(
+            *(points[name].values for name in ("n", "setting", "cpu_seconds", "frequency_error_2d")),
+            strict=True,
+        ):
+            hollow = {"markerfacecolor": "none"} if setting == "usual" else {}
+            axes.loglog(
+                seconds, PERCENT * abs(error), markersize=5 + 2 * sizes.index(n), **look, **hollow
+            )
+        handles.append(Line2D([], [], label=points["title"].values[0], **look))
+    axes.margins(0.08)
+    for axis in (axes.xaxis, axes.yaxis):
+        plain_logarithmic(axis)
+    axes.set_xlabel("CPU time (s)")
+    axes.set_ylabel("error of $\\omega$ against 2-D elasticity (%)")
+    which = ", ".join(str(n) for n in sizes)
+    axes.set_title(
+        f"$n_y$ = {which}, larger markers for more; hollow: usual time step, filled: 0.9 of its limit"
+    )
+    drawing.legend(handles=handles, loc="outside upper center", ncols=2)
+    return drawing
+
+
+def draw(found: xr.Dataset, folder: Path) -> Path:
+    """Writes the figure as PNG and PDF; returns the path of the PNG."""
+    path = folder / "peers.png"
+    with matplotlib.style.context(STYLE):
+        drawing = figure(found)
+        for file in (path, path.with_suffix(".pdf")):
+            drawing.savefig(file)
+    return path

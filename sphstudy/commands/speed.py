@@ -1,0 +1,63 @@
+"""`sphstudy study speed [quick=true] [parts=forms,terms] [rounds=5] [results=FOLDER] [--dry-run]`."""
+
+import sys
+from pathlib import Path
+
+import xarray as xr
+
+from sphstudy.benchmarks.speed.settings import PARTS, Settings, parsed
+from sphstudy.errors import ConfigurationError
+
+
+def speed_command(overrides: list[str], dry_run: bool) -> int:
+    """Measures, writes <results>/speed/speed.nc and figures beside it, and prints tables; always anew.
+
+    With `dry_run` only says what it would measure, and what that took the last time. Returns the exit
+    status: 0, or 1 if a system went bad before it was timed. Raises ConfigurationError on wrong input.
+    """
+    settings = parsed(overrides)
+    path = Path(settings.results) / "speed" / "speed.nc"
+    if dry_run:
+        _print_plan(settings, path)
+        return 0
+    # Loaded only now: wrong input is answered at once.
+    from sphstudy.benchmarks.speed.dataset import dataset
+    from sphstudy.benchmarks.speed.figures import write_figures
+    from sphstudy.benchmarks.speed.measurements import measure
+    from sphstudy.benchmarks.speed.tables import print_tables
+    from sphstudy.configuration.composition import session
+    from sphstudy.store.store import Store, write
+
+    Store(settings.results).prepare()
+    with session() as hydra:
+        found = measure(hydra, settings, lambda text: print(text, file=sys.stderr, flush=True))
+    measured = dataset(found, settings)
+    write(measured, path)
+    print_tables(measured)
+    for figure in write_figures(measured, path.parent):
+        print(f"figure: {figure}")
+    print(f"dataset: {path}")
+    return 1 if any(rate.wrong for rate in found.rates) else 0
+
+
+def _print_plan(settings: Settings, path: Path) -> None:
+    before = _before(path)
+    for part in settings.parts:
+        print(f"{part}: {PARTS[part]}{before.get(part, '')}")
+    print(f"would be measured with {settings.rounds} rounds, whatever {path} holds")
+
+
+def _before(path: Path) -> dict[str, str]:
+    """What each part took when it was measured last."""
+    from sphstudy.store.store import read_dataset
+
+    if not path.is_file():
+        return {}
+    found: xr.Dataset = read_dataset(str(path), path.parent)
+    if "part" not in found.dims:
+        raise ConfigurationError([f"{path}: not a dataset of study speed"])
+    quick = " (quick)" if found.attrs["quick"] == "True" else ""
+    return {
+        str(part): f"; {seconds:.0f} s of CPU time the last time{quick}"
+        for part, seconds in zip(found["part"].values, found["part_cpu_time"].values, strict=True)
+    }

@@ -1,0 +1,144 @@
+"""What a folder of results holds, or how far a study is: run by run, with progress and time left."""
+
+import time
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+
+from sphstudy.commands.points_table import LONGEST
+from sphstudy.configuration.composition import session
+from sphstudy.configuration.study_points import all_points
+from sphstudy.console import console
+from sphstudy.errors import ConfigurationError
+from sphstudy.running.plan import plan
+from sphstudy.running.progress import duration
+from sphstudy.store.lock import Holder, holder, is_alive
+from sphstudy.store.store import CHECKPOINT, CLAIM, Store
+
+
+@dataclass(frozen=True)
+class Line:
+    """A run: its name, outcome, CPU time (s; NaN if unknown) and what there is to say."""
+
+    name: str
+    outcome: str
+    seconds: float
+    note: str
+
+
+def status_command(arguments: list[str]) -> int:
+    """`sphstudy status [STUDY] [results=FOLDER] [key=value …]`: runs with outcomes, and counts."""
+    if arguments and "=" not in arguments[0]:
+        lines, left = _of_study(arguments[0], arguments[1:])
+    else:
+        lines, left = _of_folder(arguments), ""
+    shown = lines if len(lines) <= LONGEST else [line for line in lines if line.outcome != "done"]
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    for heading in ("run", "outcome", "CPU (s)", "note"):
+        table.add_column(heading, overflow="fold")
+    for line in shown[:LONGEST]:
+        seconds = "" if line.seconds != line.seconds else f"{line.seconds:.1f}"
+        table.add_row(line.name, line.outcome, seconds, line.note)
+    if shown:
+        console().print(table)
+    if len(shown) < len(lines) or len(shown) > LONGEST:
+        print(f"{len(lines) - min(len(shown), LONGEST)} more runs are not listed")
+    counts = Counter(line.outcome for line in lines)
+    print(", ".join(f"{count} {name}" for name, count in counts.items()) or "no runs")
+    if left:
+        print(left)
+    return 0
+
+
+def _of_folder(arguments: list[str]) -> list[Line]:
+    folder = "results"
+    for argument in arguments:
+        key, _, value = argument.partition("=")
+        if key != "results" or not value:
+            raise ConfigurationError([f"{argument}: status takes a study, and results=FOLDER"])
+        folder = value
+    store = Store(folder)
+    if not store.runs.is_dir():
+        raise ConfigurationError([f"results={folder}: there are no runs"])
+    stems = {path.stem for path in store.runs.glob("*.nc") if not path.name.startswith(".")}
+    claimed = {path.name.removesuffix(CLAIM) for path in store.runs.glob(f"*{CLAIM}")}
+    kept = {path.stem for path in store.runs.glob(f"*{CHECKPOINT}")}
+    # What is set aside while it is looked at is listed below.
+    lines = [
+        line
+        for stem in sorted(stems | claimed | kept)
+        if (line := _line(store, store.runs / stem, stem in claimed, stem in kept))
+    ]
+    lines += [
+        Line(path.stem, "unreadable", float("nan"), "set aside; the run is done again when asked for")
+        for path in sorted(store.runs.glob("*.unreadable"))
+    ]
+    store.index.flush()
+    return lines
+
+
+def _line(store: Store, stem: Path, claimed: bool, kept: bool) -> Line | None:
+    """A run with a claim, a checkpoint, or a record; None if it has none of them that can be read."""
+    claim = stem.with_name(stem.name + CLAIM)
+    alive = claimed and is_alive(claim)
+    if not alive and (summary := store.summary_at(stem.with_name(stem.name + ".nc"))):
+        # A claim that is lost beside a record: its process was killed when all was done.
+        seconds = summary.numbers.get("cpu_seconds", float("nan"))
+        return Line(stem.name, summary.status, seconds, summary.attributes["message"])
+    if alive or claimed or kept:
+        told = _told(holder(claim), alive) if claimed else "it goes on from its checkpoint"
+        return Line(stem.name, "running" if alive else "interrupted", float("nan"), told)
+    return None
+
+
+def _told(note: Holder | None, alive: bool) -> str:
+    """Where a run is computed, since when, and how far it is."""
+    if note is None:
+        return "its claim cannot be read"
+    since = time.strftime("%Y-%m-%d %H:%M", time.localtime(note.started))
+    where = f"process {note.process} on {note.host}, since {since}, {'alive' if alive else 'lost'}"
+    return (f"step {note.step:,} of {note.steps:,}, " if note.steps else "") + where
+
+
+def _of_study(name: str, overrides: list[str]) -> tuple[list[Line], str]:
+    """The points of a study; how many are done, how fast, and how long the rest will take."""
+    with session() as hydra:
+        points, folder, _ = all_points(hydra, name, overrides)
+        store = Store(folder)
+        planned = plan(points, store)
+        lines = [_of_point(store, p.point.config, p.status) for p in planned]
+    store.index.flush()
+    return lines, "\n".join(_pace(store, planned))
+
+
+def _of_point(store: Store, config, status: str) -> Line:
+    stem = store.record_path(config).with_suffix("")
+    claimed, kept = store.claim_path(config).exists(), store.checkpoint_path(config).exists()
+    line = None
+    if claimed or kept or store.record_path(config).exists():
+        line = _line(store, stem, claimed, kept)
+    return line or Line(stem.name, status, float("nan"), "")
+
+
+def _pace(store: Store, planned) -> Iterator[str]:
+    """Points with a record over all, the rate at which they came, and what is left."""
+    there = [p for p in planned if store.record_path(p.point.config).exists()]
+    times = sorted(store.stamp(p.point.config) * 1e-9 for p in there)
+    yield f"{len(there)} of {len(planned)} points have a record"
+    recent = [t for t in times if times[-1] - t < 3600.0]
+    if len(recent) > 1 and recent[-1] > recent[0]:
+        rate = (len(recent) - 1) / (recent[-1] - recent[0]) * 3600.0
+        yield f"{rate:.3g} an hour while the last {len(recent)} were made"
+    left = [p for p in planned if p not in there]
+    seconds = sum(p.seconds * (1.0 - _share_done(store, p.point.config)) for p in left)
+    if left:
+        yield f"{len(left)} left, about {duration(seconds)} of CPU time"
+
+
+def _share_done(store: Store, config) -> float:
+    note = holder(store.claim_path(config))
+    return note.step / note.steps if note and note.steps else 0.0

@@ -1,0 +1,1 @@
+"""From words to valid points: composition, overrides, run settings, study files."""

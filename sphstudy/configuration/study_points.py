@@ -1,0 +1,43 @@
+"""From a named study to its points, block by block."""
+
+from sphstudy.configuration import study_file
+from sphstudy.configuration.composition import Point, Session
+from sphstudy.errors import ConfigurationError
+
+
+class StudyPoints:
+    """The points of one study file (not of those it includes), by block, in order.
+
+    `skipped`: cells left out because they are not valid, with the complaint. `folder`: of the results.
+    """
+
+    def __init__(self, hydra: Session, name: str, overrides: list[str]):
+        definition = study_file.load(name)
+        self.blocks: dict[str, list[Point]] = {}
+        self.skipped: list[str] = []
+        self.folder = ""
+        skipped = self.skipped if definition.skip_invalid else None
+        for block, sweeps in study_file.grids(definition, overrides).items():
+            points: dict[str, Point] = {}
+            for sweep in sweeps:
+                found, self.folder = hydra.points(sweep, sweep=True, skipped=skipped)
+                points |= {str(point.config): point for point in found}
+            self.blocks[block] = list(points.values())
+
+
+def all_points(hydra: Session, name: str, overrides: list[str]) -> tuple[list[Point], str, list[str]]:
+    """All points of a study and of those it includes, each once; the folder of results; what is skipped.
+
+    Raises ConfigurationError if there are none, or with every complaint if one is not valid.
+    """
+    found: dict[str, Point] = {}
+    skipped: list[str] = []
+    folder = ""
+    for member in study_file.members(name):
+        part = StudyPoints(hydra, member, overrides)
+        folder = part.folder or folder
+        skipped += part.skipped
+        found |= {str(p.config): p for points in part.blocks.values() for p in points}
+    if not found:
+        raise ConfigurationError([f"study {name}: no points"])
+    return list(found.values()), folder, skipped

@@ -1,0 +1,1 @@
+"""What is simulated: bodies, problems, scenes, and the exact answers to them."""

@@ -1,0 +1,1 @@
+"""Getting runs done: plan, launch, workers, one run, progress."""

@@ -1,0 +1,80 @@
+"""Checkpoints of one run in a file beside its record: written by wall time, whole or not at all."""
+
+import os
+import sys
+import tempfile
+import time
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sphstudy.numerics.compile_timer import compiling_so_far
+from sphstudy.numerics.solvers.checkpoint import Checkpoint
+
+
+class CheckpointFile:
+    """The checkpoint of a run, renewed every `interval` seconds of wall time.
+
+    `cpu_seconds`, `wall_seconds`: spent before this process took over, compilation apart; 0 without a
+    checkpoint.
+    """
+
+    def __init__(self, path: Path, interval: float):
+        self.path, self.interval = path, interval
+        self.cpu_seconds = self.wall_seconds = 0.0
+        self._wall, self._cpu = time.perf_counter(), time.process_time()
+        self._compiling = compiling_so_far()
+        self._last = time.monotonic()
+
+    def load(self) -> Checkpoint | None:
+        """The checkpoint kept in the file, or None; one that cannot be read is said and ignored."""
+        try:
+            with open(self.path, "rb") as file:
+                arrays = dict(np.load(file, allow_pickle=False))
+            checkpoint = Checkpoint.from_arrays(arrays)
+            self.cpu_seconds, self.wall_seconds = arrays["spent"].tolist()
+            return checkpoint
+        except FileNotFoundError:
+            return None
+        except (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile) as error:
+            print(f"{self.path.name}: unreadable ({error}); the run starts anew", file=sys.stderr)
+            return None
+
+    def due(self) -> bool:
+        """Whether the interval has passed."""
+        return time.monotonic() - self._last >= self.interval
+
+    def save(self, checkpoint: Checkpoint) -> None:
+        """Writes the checkpoint so that the file holds either the old one or the whole new one.
+
+        A disk that is full costs the checkpoint, not the run.
+        """
+        try:
+            self._write(checkpoint)
+        except OSError as error:
+            print(f"{self.path.name}: not written ({error}); the run goes on", file=sys.stderr)
+        self._last = time.monotonic()
+
+    def _write(self, checkpoint: Checkpoint) -> None:
+        compiling = compiling_so_far()
+        spent = (
+            self.cpu_seconds + time.process_time() - self._cpu - (compiling[1] - self._compiling[1]),
+            self.wall_seconds + time.perf_counter() - self._wall - (compiling[0] - self._compiling[0]),
+        )
+        handle, temporary = tempfile.mkstemp(dir=self.path.parent, prefix=".writing-")
+        try:
+            with os.fdopen(handle, "wb") as file:
+                arrays: Any = {"spent": np.array(spent), **checkpoint.arrays()}
+                np.savez(file, **arrays)
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(temporary, self.path)
+        except BaseException:
+            Path(temporary).unlink(missing_ok=True)
+            raise
+
+    def remove(self) -> None:
+        """Removes the file: the run has its record."""
+        self.path.unlink(missing_ok=True)

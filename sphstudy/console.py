@@ -1,9 +1,31 @@
 """The terminal, or what stands in its place where output goes to a file or a pipe."""
 
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
+from rich.table import Table as Grid
+
+from sphstudy.table import Table
 
 
 def console() -> Console:
     """The terminal, or something wide enough for any table. Text in brackets is text, not markup."""
     there = Console(markup=False)
     return there if there.is_terminal else Console(width=400, markup=False)
+
+
+def print_table(table: Table) -> None:
+    """Prints a table: numbers to the right, text folded where the terminal is narrow.
+
+    Parameters
+    ----------
+    table : Table
+        What is printed; its caption is the title, and a table without rows prints nothing.
+    """
+    if not table.rows:
+        return
+    grid = Grid(box=SIMPLE_HEAD, pad_edge=False, title=table.caption or None, title_justify="left")
+    for column in table.columns:
+        grid.add_column(column.title, justify="right" if column.numeric else "left", overflow="fold")
+    for row in table.rows:
+        grid.add_row(*(cell.text for cell in row))
+    console().print(grid)

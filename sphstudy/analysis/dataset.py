@@ -12,8 +12,8 @@ import pandas as pd
 import xarray as xr
 
 from sphstudy.configuration.run_settings import RunConfig
-from sphstudy.running.one_run import measured
 from sphstudy.store import identity, provenance, record
+from sphstudy.store.measured import measured
 from sphstudy.store.record import STATUS
 from sphstudy.store.store import Store, write
 from sphstudy.store.summary import Summary

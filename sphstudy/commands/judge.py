@@ -9,7 +9,7 @@ from sphstudy.commands.review import named
 from sphstudy.configuration.composition import session
 from sphstudy.console import console
 from sphstudy.report.stability_tables import bounds, counts, quoted, stability_map
-from sphstudy.report.tables import Table
+from sphstudy.table import Table
 
 
 def judge_command(arguments: list[str]) -> int:

@@ -22,7 +22,7 @@ from sphstudy.configuration.execution import SETTINGS
 from sphstudy.configuration.study_points import all_points
 from sphstudy.console import console
 from sphstudy.errors import ConfigurationError
-from sphstudy.running.one_run import measured
+from sphstudy.store.measured import measured
 from sphstudy.store.record import STATUS
 from sphstudy.store.store import Store, read_dataset
 

@@ -6,7 +6,7 @@ from sphstudy import text
 from sphstudy.analysis import work_precision
 from sphstudy.analysis.results import Results
 from sphstudy.analysis.work_precision import Choice
-from sphstudy.report.tables import Cell, Column, Table
+from sphstudy.table import Cell, Column, Table
 
 NONE = "no point reaches it"
 

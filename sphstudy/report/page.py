@@ -17,7 +17,7 @@ from sphstudy.analysis.results import Results
 from sphstudy.analysis.stability.judge import DEGRADED
 from sphstudy.report import sections, tables
 from sphstudy.report.sections import Origin
-from sphstudy.report.tables import Table
+from sphstudy.table import Table
 
 WORST = 8
 """Comparisons shown at once; all of them stand below, folded."""

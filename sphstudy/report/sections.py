@@ -15,8 +15,9 @@ from sphstudy.configuration import study_file
 from sphstudy.report import cheapest, render, tables, time_steps
 from sphstudy.report.render import Drawing
 from sphstudy.report.stability_tables import bounds, quoted, stability_map
-from sphstudy.report.tables import Group, Setting, Table
+from sphstudy.report.tables import Group, Setting
 from sphstudy.store.record import STATUS
+from sphstudy.table import Table
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from sphstudy.analysis.stability.bounds import Bound, Quoted
 from sphstudy.analysis.stability.bounds import quoted as read_quoted
 from sphstudy.analysis.stability.cases import OUTCOMES, Case
 from sphstudy.analysis.stability.judge import DEGRADED, DIVERGED, DONE
-from sphstudy.report.tables import Cell, Column, Table
+from sphstudy.table import Cell, Column, Table
 
 
 def stability_map(cases: list[Case]) -> Table:

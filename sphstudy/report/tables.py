@@ -14,6 +14,7 @@ from sphstudy.analysis.effects import Effect
 from sphstudy.analysis.results import Results
 from sphstudy.catalogue import headline
 from sphstudy.configuration.run_settings import RunConfig
+from sphstudy.table import Cell, Column, Table
 
 COST = ("cpu_seconds", "steps", "particles")
 """Shown of every point beside the scene's own metrics."""
@@ -22,33 +23,6 @@ LONGEST = 2000
 """Points that are listed of a group, or as not done: a page with more is a burden to whoever opens it."""
 
 _NUMBER = (int, float)
-
-
-@dataclass(frozen=True)
-class Cell:
-    """What stands in a cell. order: what it is sorted by, if not the text; badge: a status or verdict."""
-
-    text: str
-    order: float | None = None
-    badge: bool = False
-
-
-@dataclass(frozen=True)
-class Column:
-    """Heading, meaning, and whether numbers stand below it."""
-
-    title: str
-    meaning: str = ""
-    numeric: bool = True
-
-
-@dataclass(frozen=True)
-class Table:
-    """Columns and rows of cells, ready to be written out."""
-
-    caption: str
-    columns: list[Column]
-    rows: list[list[Cell]]
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from sphstudy import text
 from sphstudy.analysis import time_steps
 from sphstudy.analysis.results import Results
 from sphstudy.analysis.time_steps import SCHEME
-from sphstudy.report.tables import Cell, Column, Table
+from sphstudy.table import Cell, Column, Table
 
 
 def tables(results: Results) -> list[Table]:

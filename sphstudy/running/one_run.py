@@ -12,13 +12,14 @@ import xarray as xr
 from sphstudy.catalogue import method_module, scene_module, solver_module
 from sphstudy.configuration.execution import Execution
 from sphstudy.configuration.run_settings import RunConfig, validate
-from sphstudy.metrics.metric import Metric, measure
+from sphstudy.metrics.metric import Metric
 from sphstudy.numerics.compile_timer import CompileTimer
 from sphstudy.running.interrupt import interruptible
 from sphstudy.running.limits import Log, memory_limited, warnings_to
 from sphstudy.store import identity, record
 from sphstudy.store.checkpoint_file import CheckpointFile
 from sphstudy.store.lock import Claim
+from sphstudy.store.measured import measured
 from sphstudy.store.provenance import provenance
 from sphstudy.store.store import Store
 
@@ -125,21 +126,6 @@ def _solved(config: RunConfig, claim: Claim, keeper: CheckpointFile, execution: 
     run = record.fields(problem, solution)
     run = record.with_outcome(run, solution.outcome, solution.message, cost, _attributes(config))
     return measured(run, config)
-
-
-def measured(run: xr.Dataset, config: RunConfig) -> xr.Dataset:
-    """The record with its metrics, measured from its fields; none if the run is not done, or if its
-    solver leaves numbers of its own (`HEADLINE`) and no motion.
-
-    What metrics remark is the message of a run that is done.
-    """
-    metrics = {}
-    own = hasattr(solver_module(config.solve.name), "HEADLINE")
-    if record.STATUS[int(run["status"])] == "done" and not own:
-        metrics = measure(run, config, scene_module(config.scene.kind).METRICS)
-        remarks = [metric.remark for metric in metrics.values() if metric.remark]
-        run.attrs["message"] = "; ".join(dict.fromkeys(remarks))
-    return record.with_metrics(run, metrics, identity.metrics_version(config))
 
 
 def _attributes(config: RunConfig) -> dict[str, str]:

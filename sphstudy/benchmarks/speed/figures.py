@@ -5,14 +5,14 @@ from pathlib import Path
 import matplotlib
 import xarray as xr
 
+from sphstudy.benchmarks.speed import drawings
 from sphstudy.report.figure import STYLE
-from sphstudy.report.figures import speed
 
 
 def write_figures(found: xr.Dataset, folder: Path) -> list[Path]:
     """Draws what the dataset has the numbers for, as PNG and PDF; returns the PNG files."""
     written = []
-    for draw, group in ((speed.growth, "growth"), (speed.terms, "terms")):
+    for draw, group in ((drawings.growth, "growth"), (drawings.terms, "terms")):
         if "rate" in found.dims and group in found["rate_group"].values:
             path = folder / f"{group}.png"
             with matplotlib.rc_context(fname=STYLE):

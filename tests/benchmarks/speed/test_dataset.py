@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from sphstudy.benchmarks.speed import cases
+from sphstudy.benchmarks.speed import drawings as speed
 from sphstudy.benchmarks.speed.bounds import bounds
 from sphstudy.benchmarks.speed.dataset import dataset
 from sphstudy.benchmarks.speed.figures import write_figures
@@ -13,7 +14,6 @@ from sphstudy.benchmarks.speed.measurements import Measurements
 from sphstudy.benchmarks.speed.settings import Settings
 from sphstudy.benchmarks.speed.tables import print_tables
 from sphstudy.benchmarks.speed.terms import term_costs
-from sphstudy.report.figures import speed
 from sphstudy.store.store import read_dataset, write
 from tests.benchmarks.speed.synthetic import measurements, rate
 

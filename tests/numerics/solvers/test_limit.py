@@ -13,8 +13,8 @@ from sphstudy.configuration.composition import session
 from sphstudy.errors import ConfigurationError
 from sphstudy.model.problem import Stage
 from sphstudy.numerics.solvers import explicit, growth, limit
-from sphstudy.running.one_run import measured
 from sphstudy.store import record
+from sphstudy.store.measured import measured
 from sphstudy.store.record import STATUS
 
 STAGE = Stage("free", "run", duration=1.0)

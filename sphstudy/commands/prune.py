@@ -14,6 +14,7 @@ from sphstudy.configuration.run_settings import validate
 from sphstudy.console import console
 from sphstudy.errors import ConfigurationError
 from sphstudy.store import identity
+from sphstudy.store.adoption import adoptable
 from sphstudy.store.atomic import UNFINISHED
 from sphstudy.store.lock import is_alive
 from sphstudy.store.store import CHECKPOINT, CLAIM, Store, read_summary
@@ -118,8 +119,8 @@ def _remove(path: Path) -> None:
 def _why(store: Store, path: Path) -> str:
     """Why a record is stale; "" if it is not."""
     summary = read_summary(path)
-    if summary is None:
-        return ""  # set aside just now, and listed as such
+    if summary is None or adoptable(summary.attributes):
+        return ""  # set aside just now, and listed as such; or `sphstudy adopt` makes use of it
     try:
         config = validate(json.loads(summary.attributes["configuration"]))
     except ConfigurationError as error:

@@ -201,12 +201,33 @@ def _are_mappings(*values: Any) -> bool:
     return all(isinstance(value, dict) for value in values)
 
 
-def headline(scene: str, solver: str) -> tuple[str, ...]:
-    """What tables show of a run first: the scene's metrics, or numbers of a solver that has none of them.
+def metrics(scene: str) -> tuple[str, ...]:
+    """Modules of metrics that measure a scene, by its name. Raises ConfigurationError as `settings`."""
+    return tuple(_list(scene, "metrics"))
 
-    scene: kind of scene; solver: its name.
+
+def headline(scene: str, solver: str) -> tuple[str, ...]:
+    """Metrics that tables show of a run: the scene's, or those of a solver that records no motion.
+
+    Parameters
+    ----------
+    scene, solver : str
+        Their names.
+
+    Raises
+    ------
+    ConfigurationError
+        As `settings`.
     """
-    return getattr(solver_module(solver), "HEADLINE", scene_module(scene).HEADLINE)
+    own = getattr(solver_module(solver), "HEADLINE", None)
+    return tuple(own or _list(scene, "headline"))
+
+
+def _list(scene: str, section: str) -> list[str]:
+    found = settings("scene", scene).get(section)
+    if not (isinstance(found, list) and all(isinstance(name, str) for name in found)):
+        raise ConfigurationError([f"scene/{scene}.yaml: {section}: should be a list of names"])
+    return found
 
 
 def protocol(scene: str, method: str, solver: str) -> dict[str, Any]:

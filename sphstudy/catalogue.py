@@ -152,7 +152,9 @@ def settings(group: str, name: str) -> dict[str, Any]:
 
 
 @cache
-def _settings(group: str, name: str, folders: tuple[Path, ...]) -> dict[str, Any]:
+def _settings(
+    group: str, name: str, folders: tuple[Path, ...], heirs: tuple[str, ...] = ()
+) -> dict[str, Any]:
     path = next((p for place in folders if (p := place / group / f"{name}.yaml").is_file()), None)
     if path is None:
         raise ConfigurationError([unknown(group, name, names(group))])
@@ -160,9 +162,9 @@ def _settings(group: str, name: str, folders: tuple[Path, ...]) -> dict[str, Any
     inherited = own.pop("defaults", ["_self_"])
     found: dict[str, Any] = {}
     for parent in inherited if isinstance(inherited, list) else [inherited]:
-        if not (isinstance(parent, str) and parent.isidentifier() and parent != name):
+        if not (isinstance(parent, str) and parent.isidentifier() and parent not in (name, *heirs)):
             raise ConfigurationError([f"{group}/{path.name}: defaults: {parent} is no name of a {group}"])
-        above = own if parent == "_self_" else _settings(group, parent, folders)
+        above = own if parent == "_self_" else _settings(group, parent, folders, (name, *heirs))
         bounds = {**found.get("bounds", {}), **above.get("bounds", {})}
         found = merged(found, above) | ({"bounds": bounds} if bounds else {})
     return found

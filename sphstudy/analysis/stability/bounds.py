@@ -164,7 +164,7 @@ def _bound(place: str, given: Any, fixed: dict[str, Any], complaints: list[str])
         complaints.append(f"{place}: should be a mapping with at_most or at_least, and reason")
         return None
     try:
-        optional = {"at_most": None, "at_least": None, "where": {}}
+        optional: dict[str, Any] = {"at_most": None, "at_least": None, "where": {}}
         bound = TypeAdapter(Bound).validate_python({**optional, **given, **fixed})
     except ValidationError as error:
         complaints += _complaints(place, error)

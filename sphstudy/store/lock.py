@@ -33,8 +33,8 @@ LOST_AFTER = 120.0
 another machine is lost.
 """
 
-SAME_START = 2.0
-"""Two start times of one process may differ by this (s): the clock that they count from is adjusted."""
+SAME_START = 0.1
+"""By how much two readings of the time when one process started may differ (s)."""
 
 _LOCK = ".claims"
 
@@ -46,7 +46,7 @@ class Holder:
     step, steps : the step reached, and how many there are; both 0 before the first.
     process, host : number of the process, and name of its machine.
     started : when the claim was taken (Unix time).
-    born : when the process started (Unix time): numbers of processes are used again.
+    born : when the process started (s after the machine did): numbers of processes are used again.
     """
 
     step: int
@@ -133,7 +133,7 @@ def is_alive(path: Path) -> bool:
     if note is None:
         return False
     if note.host == platform.node():
-        # A claim of an older version counts otherwise: no process has started then.
+        # A claim of an older version counts in ticks: no process has started then.
         born = _born(note.process)
         return born > 0.0 and abs(born - note.born) < SAME_START
     try:
@@ -143,9 +143,12 @@ def is_alive(path: Path) -> bool:
 
 
 def _born(process: int) -> float:
-    """When a living process started (Unix time); 0 if it is gone, or dead and not waited for."""
+    """When a living process started (s after the machine did); 0 if it is gone, or a zombie."""
     try:
         found = psutil.Process(process)
-        return 0.0 if found.status() == psutil.STATUS_ZOMBIE else found.create_time()
+        if found.status() == psutil.STATUS_ZOMBIE:
+            return 0.0
+        # Both are shifted where the clock is set, as after a pause of a virtual machine; this is not.
+        return found.create_time() - psutil.boot_time()
     except (psutil.Error, ValueError, TypeError, OverflowError):
         return 0.0

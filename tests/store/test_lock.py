@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 
+import psutil
 import pytest
 
 from sphstudy.store import lock
@@ -24,12 +25,6 @@ def written(path, **changes):
     Claim(path).take()
     note = json.loads(path.read_text()) | changes
     path.write_text(json.dumps(note))
-
-
-def holder_of(path):
-    """When the holder of a claim of this process was born."""
-    written(path)
-    return holder(path).born
 
 
 def _compete(path, start, taken):
@@ -95,8 +90,11 @@ def test_a_claim_of_an_older_version_cannot_be_judged_and_holds_nothing(path, bo
     assert Claim(path).take()
 
 
-def test_a_clock_that_is_adjusted_makes_no_other_process(path):
-    written(path, born=holder_of(path) + 1.0)
+def test_a_clock_that_is_set_makes_no_other_process(path, monkeypatch):
+    written(path)
+    boot, create = psutil.boot_time(), psutil.Process().create_time()
+    monkeypatch.setattr(psutil, "boot_time", lambda: boot + 3600.0)
+    monkeypatch.setattr(psutil.Process, "create_time", lambda self: create + 3600.0)
     assert is_alive(path)
 
 

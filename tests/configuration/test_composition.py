@@ -149,7 +149,7 @@ def test_the_catalogue_inherits_as_hydra_does(hydra, scene):
 
     config = hydra._loader.load_configuration("config", [f"scene={scene}"], RunMode.RUN)
     whole, found = OmegaConf.to_container(config), dict(catalogue.settings("scene", scene))
-    record = found.pop("record", {})
+    record, whole["scene"]["name"] = found.pop("record", {}), scene
     assert whole["record"] == {**whole["record"], **record}
     assert {key: whole[key] for key in found} == found
 

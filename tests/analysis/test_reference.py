@@ -36,9 +36,11 @@ def smallest_effects():
     does, or of the metric's largest value), found without the product's own code for it.
     """
     stored = cells(reference.load("choices"))
-    # Settings that came after the reference was stored have had one value ever since.
-    known = {key for cell in stored for key in cell.flat}
-    name = lambda flat: tuple(sorted(str(item) for item in flat.items() if item[0] in known))  # noqa: E731
+    # Settings that came after the reference was stored have had one value ever since. Others have moved
+    # to another section, and count by their own name.
+    own = lambda flat: sorted((key.rpartition(".")[2], str(v)) for key, v in flat.items())  # noqa: E731
+    known = {key for cell in stored for key, _ in own(cell.flat)}
+    name = lambda flat: tuple(item for item in own(flat) if item[0] in known)  # noqa: E731
     points = {name(cell.flat): cell for cell in stored}
     metrics, found = reference.metrics(reference.load("choices")), {}
     size = {

@@ -1,4 +1,4 @@
-"""The cells of a combined dataset, one by one, whichever shape the dataset has."""
+"""The cells of a combined dataset, one by one, whether it is a grid or a list of points."""
 
 import json
 from dataclasses import dataclass
@@ -26,10 +26,19 @@ class Cell:
 
 
 def cells(dataset: xr.Dataset, without: str = "") -> list[Cell]:
-    """All points of a combined dataset, but for those of an outcome `without`, and for cells that are no
-    point.
+    """All points of a combined dataset; cells of a grid that are no point are left out.
 
-    Raises ValueError if it is not a combined dataset of this program.
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        The combined dataset.
+    without : str
+        Outcome of points that are left out too.
+
+    Raises
+    ------
+    ValueError
+        If it is not a combined dataset of this program.
     """
     if "configuration" not in dataset or "status" not in dataset:
         raise ValueError("not a combined dataset of this program")

@@ -1,4 +1,4 @@
-"""Comparison of a study's metrics with accepted intervals: worst first, and a verdict for each."""
+"""Metrics of a study against accepted intervals: a verdict for each, worst first."""
 
 import math
 from dataclasses import dataclass
@@ -22,8 +22,20 @@ WITHIN, OUTSIDE, UNSTABLE, MISSING = "within", "outside", "unstable", "missing"
 class Comparison:
     """One metric of one cell against its accepted interval.
 
-    cell: the settings that tell it from the study's other cells. excess: distance of the value from the
-    middle of the interval, in half-widths (more than 1: outside). reason: why the interval is as wide.
+    Attributes
+    ----------
+    study, metric, units : str
+        What is compared.
+    cell : str
+        The settings that tell the cell from the study's other cells.
+    value, lower, upper : float
+        The value (NaN if it is missing), and the interval.
+    verdict : str
+        WITHIN, OUTSIDE, UNSTABLE or MISSING.
+    excess : float
+        Distance of the value from the middle of the interval in half-widths: more than 1 is outside.
+    reason : str
+        Why the interval is as wide as it is, or why the cell is not judged.
     """
 
     study: str
@@ -41,9 +53,18 @@ class Comparison:
 def against_reference(results: Results) -> list[Comparison]:
     """Every metric of every cell of the stored references of the study and of those it includes.
 
-    A point belongs to the cell with its coordinates, whatever else is set: a default that has changed
-    shows in the values. Cells of a reference that are no points of the results are left out, and so are
-    points that the reference lacks. Worst first.
+    A point belongs to the cell with its coordinates, whatever else is set: a changed default shows in the
+    values. Cells that are no points of the results are left out, and points that the reference lacks.
+
+    Parameters
+    ----------
+    results : Results
+        The study.
+
+    Returns
+    -------
+    list of Comparison
+        Worst first.
     """
     found: list[Comparison] = []
     for member in study_file.members(results.name):
@@ -94,11 +115,24 @@ def against_thesis(results: Results) -> list[Comparison]:
 
 
 def between(after: xr.Dataset, before: xr.Dataset, tolerance: float) -> list[Comparison]:
-    """All metrics of two combined datasets, cell by cell; `tolerance` is relative to the value before.
+    """All metrics of two combined datasets, cell by cell.
 
-    Where `before` is a stored reference, its own intervals hold. Cells and metrics that `after` lacks are
-    there as missing. Raises ValueError if either is not a combined dataset, or if several cells of
-    `after` stand for one of `before`.
+    Parameters
+    ----------
+    after, before : xarray.Dataset
+        The datasets. Cells and metrics of `before` that `after` lacks are missing.
+    tolerance : float
+        Half-width of an interval relative to the value before; a stored reference has its own.
+
+    Returns
+    -------
+    list of Comparison
+        Worst first.
+
+    Raises
+    ------
+    ValueError
+        If either is not a combined dataset, or if several cells of `after` are one of `before`.
     """
     now = cells(after)
     found: list[Comparison] = []
@@ -135,10 +169,8 @@ def _agree(settings: Any, place: dict[str, Any]) -> bool:
 
 
 def _plain(value: Any) -> float | str:
-    """A setting in the one form in which tables and coordinates can be told equal.
-
-    Coordinates that are a mixture of numbers and words are all written as words, columns of a table that
-    lack a whole number in some rows have only fractions.
+    """A setting in a form that compares: coordinates that mix numbers and words are all words, and
+    columns of a table in which some rows lack a whole number are all fractions.
     """
     value = hashable(value)
     if isinstance(value, bool | np.bool_):

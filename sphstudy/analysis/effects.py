@@ -1,4 +1,4 @@
-"""What each varied setting does to each metric: the effects of blocks that vary one setting at a time."""
+"""The change of each metric by each setting, in blocks that vary one setting at a time."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ import pandas as pd
 from sphstudy.analysis.results import Results
 
 CONTROL = "scene.rho"
-"""A setting that is changed in its eleventh digit only: its effect is what may become of rounding."""
+"""A setting that is changed in its eleventh digit only: its effect shows how far rounding may grow."""
 
 
 @dataclass(frozen=True)
@@ -28,14 +28,17 @@ class Effect:
 
     @property
     def is_control(self) -> bool:
-        """Whether what was varied should change nothing."""
+        """Whether the change of the setting should change nothing but rounding."""
         return self.varied.startswith(CONTROL)
 
 
 def effects(results: Results) -> list[Effect]:
-    """All effects in a study: for each block that varies settings, each setting, each metric.
+    """All effects in a study: of each block that varies settings, each setting on each metric.
 
-    Points and metrics that are not there are left out.
+    Parameters
+    ----------
+    results : Results
+        The study; points without a record and metrics without a value are left out.
     """
     found: list[Effect] = []
     table = results.table

@@ -21,8 +21,16 @@ from sphstudy.errors import ConfigurationError
 class Series:
     """A metric over the resolutions of points that agree in everything else.
 
-    place: coordinates other than n. values: by n, NaN where the point is left out, which the flag of the
-    extrapolation then tells.
+    Attributes
+    ----------
+    scene : str
+        Name of the scene.
+    place : dict
+        Coordinates other than n.
+    values : dict
+        The metric by n; NaN where the point is left out, for the reason in the extrapolation's flag.
+    extrapolation : Extrapolation
+        To zero spacing.
     """
 
     scene: str
@@ -34,8 +42,19 @@ class Series:
 def series(dataset: xr.Dataset, metric: str, order: float | None = None) -> list[Series]:
     """The extrapolation of a metric of a combined dataset for each group of points that differ in n only.
 
-    order None: observed. Raises ConfigurationError if the dataset is not a combined one, or has no such
-    metric, no particle spacing, or fewer than two n.
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        The combined dataset.
+    metric : str
+        One of its metrics.
+    order : float, optional
+        Order of convergence; observed if not given.
+
+    Raises
+    ------
+    ConfigurationError
+        If the dataset is not a combined one, or lacks the metric, the particle spacing, or a second n.
     """
     _check(dataset, metric)
     groups: dict[tuple, list[Cell]] = {}
@@ -70,8 +89,12 @@ def _complaint(cell: Cell, metric: str) -> str:
 def extrapolated(dataset: xr.Dataset, metric: str, order: float | None = None) -> xr.Dataset:
     """A metric of a combined dataset at zero spacing, over all that was swept besides n.
 
-    Variables: the metric, METRIC_uncertainty (both in its unit), METRIC_order and METRIC_flag. order
-    None: observed. Raises ConfigurationError as `series` does.
+    Parameters and errors are those of `series`.
+
+    Returns
+    -------
+    xarray.Dataset
+        The metric and METRIC_uncertainty (both in its unit), METRIC_order and METRIC_flag.
     """
     found = series(dataset, metric, order)
     dataset = _with_dimensions(dataset)

@@ -1,7 +1,7 @@
 """How far a metric may be from its reference: half of the smallest effect that any open choice has.
 
-An interval that wide tells two variants of a method apart, and leaves room for another machine's
-rounding, whose size the control of the choices study measures.
+Such an interval tells two variants of a method apart, and leaves room for another machine's rounding, whose
+size the control of the choices study measures.
 """
 
 from collections.abc import Iterable
@@ -13,10 +13,10 @@ SHARE = 0.5
 """Half-width of an interval in smallest effects."""
 
 ABOVE_ROUNDING = 100.0
-"""An effect counts if it is so many times larger than the control's."""
+"""An effect counts if it is this many times larger than the control's."""
 
 ROUNDING = 1e-9
-"""Half-width, relative to the largest value, for what no choice has an effect on: rounding only."""
+"""Half-width, relative to the largest value, of a metric that no choice has an effect on."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,18 @@ class Tolerance:
 
 
 def tolerances(found: Iterable[Effect]) -> dict[str, Tolerance]:
-    """The tolerance of each metric that occurs in the effects, over all blocks."""
+    """The tolerance of each metric.
+
+    Parameters
+    ----------
+    found : iterable of Effect
+        Effects of choices, of any blocks; a control counts for its own block.
+
+    Returns
+    -------
+    dict
+        Metric: its tolerance.
+    """
     by_metric: dict[str, list[Effect]] = {}
     for effect in found:
         by_metric.setdefault(effect.metric, []).append(effect)

@@ -1,7 +1,7 @@
 """Stored references: the combined dataset of a study, with an accepted interval for each metric.
 
-They lie in `results/reference`, tracked, one netCDF file a study; `thesis_values.yaml` beside them has
-the ranges that the thesis's text and axes give.
+They lie in `results/reference`, tracked, one netCDF file a study, beside `thesis_values.yaml`: the ranges
+that the thesis's text and axes give.
 """
 
 import itertools
@@ -42,7 +42,20 @@ def metrics(dataset: xr.Dataset) -> list[str]:
 
 
 def tolerance(dataset: xr.Dataset, metric: str) -> Tolerance | None:
-    """How far from the values of a reference the metric may be; None if it is not to be judged."""
+    """How far a metric may be from its values in a reference.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        The reference.
+    metric : str
+        One of its metrics.
+
+    Returns
+    -------
+    Tolerance or None
+        None if the metric is not judged.
+    """
     attributes = dataset[metric].attrs
     if "half_width" not in attributes:
         return None

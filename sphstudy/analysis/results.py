@@ -1,4 +1,4 @@
-"""What the store holds of a study: a table of all points and their records. Reads, never runs."""
+"""The stored points of a study: a table of all points, and their records. Runs and writes nothing."""
 
 from collections.abc import Callable
 from functools import cache, lru_cache
@@ -18,18 +18,27 @@ from sphstudy.store.store import Store
 
 
 class Missing(LookupError):
-    """Something asked for is not in the store: the message says what and why."""
+    """The store lacks a record or a number that was asked for; the message says which, and why."""
 
 
 class Results:
     """The stored points of a study.
 
-    table: a row for each point of each block, in order. Its columns: `study`, the member that the point
-    belongs to (the study itself or one that it includes); `block`; `varied` ("key=value" in a block
-    that varies settings one at a time, else ""); every setting of the flat configuration ("h", "n",
-    "scene", "scene.E", ...); `status`, `record` (file name) and where it comes from (collect.ORIGIN:
-    `message`, `git_state`, ...); and every metric and cost (NaN where there is none). attributes: units
-    and long_name of each metric and cost.
+    Parameters
+    ----------
+    name, definition : str, Study
+        The study.
+    table : pandas.DataFrame
+        A row for each point of each block, in order. Columns: `study` (the study itself or one that it
+        includes), `block`, `varied` ("key=value" in a block that varies settings one at a time, else
+        ""), every setting of the flat configuration ("h", "n", "scene", "scene.E", …), and those of
+        `PointsTable.rows`: `status`, `record`, ORIGIN, every metric and cost (NaN without a value).
+    attributes : dict
+        Units, meaning and group of each metric and cost.
+    record, config : callable
+        The record (None without one) and the configuration of a row of the table, by its index.
+    other : callable
+        The results of another study, by its name and overrides.
     """
 
     def __init__(
@@ -42,12 +51,19 @@ class Results:
         other: Callable[[str, list[str]], "Results"],
         config: Callable[[int], RunConfig],
     ):
-        """`record` and `config` take a row's index in the table, `other` a study's name and overrides."""
         self.name, self.definition, self.table, self.attributes = name, definition, table, attributes
         self._record, self._other, self._config = record, other, config
 
     def select(self, settings: dict[str, Any] | None = None, block: str | None = None) -> pd.DataFrame:
-        """Rows of the points with these settings (flat keys) in this block, or in any."""
+        """The rows of some points.
+
+        Parameters
+        ----------
+        settings : dict, optional
+            Values of columns that the points have; here and below, flat keys of settings or `varied`.
+        block : str, optional
+            The block that the points belong to; any if not given.
+        """
         chosen = self.table if block is None else self.table[self.table["block"] == block]
         for key, value in (settings or {}).items():
             chosen = chosen[chosen[key] == value]
@@ -58,7 +74,10 @@ class Results:
     ) -> pd.DataFrame:
         """A metric over h (index) and n (columns), NaN where it is missing.
 
-        Raises Missing if there is not a single value, or several in a place.
+        Raises
+        ------
+        Missing
+            If there is not a single value, or if several points share a place.
         """
         chosen = self.select(settings, block)
         if metric not in chosen or chosen[metric].isna().all():
@@ -70,7 +89,7 @@ class Results:
     def value(
         self, metric: str, settings: dict[str, Any] | None = None, block: str | None = None
     ) -> float:
-        """A metric of the one point with these settings. Raises Missing if it is not there."""
+        """A metric of the one point with these settings. Raises Missing if it has no value."""
         row = self._only(settings, block)
         if metric not in self.table or pd.isna(value := self.table.at[row, metric]):
             status = self.table.at[row, "status"]
@@ -78,7 +97,7 @@ class Results:
         return float(value)
 
     def record(self, settings: dict[str, Any] | None = None, block: str | None = None) -> xr.Dataset:
-        """The record of the one point with these settings, which is done. Raises Missing otherwise."""
+        """The record of the one point with these settings. Raises Missing unless the run is done."""
         row = self._only(settings, block)
         record = self._record(row)
         if record is None or self.table.at[row, "status"] != "done":
@@ -90,9 +109,7 @@ class Results:
         return self._record(row)
 
     def config(self, settings: dict[str, Any] | None = None, block: str | None = None) -> RunConfig:
-        """The configuration of the one point with these settings, run or not. Raises Missing if there is
-        not exactly one.
-        """
+        """The configuration of the one point with these settings, run or not. Raises Missing."""
         return self.config_at(self._only(settings, block))
 
     def config_at(self, row: int) -> RunConfig:
@@ -120,10 +137,23 @@ class Results:
 
 
 def load(name: str, hydra: Session, overrides: list[str], folder: str | None = None) -> Results:
-    """The stored points of a study (those of studies it includes too), in the folder of results given.
+    """The stored points of a study and of those that it includes.
 
-    Metrics of another version are measured again from stored fields. Raises ConfigurationError if there
-    is no such study.
+    Parameters
+    ----------
+    name : str
+        The study.
+    hydra : Session
+        Composes its points.
+    overrides : list of str
+        Settings that replace those of the study, "n=21".
+    folder : str, optional
+        The folder of results; that of the settings if not given.
+
+    Raises
+    ------
+    ConfigurationError
+        If there is no such study, or an override is wrong.
     """
     where = folder or all_points(hydra, name, overrides)[1]
     members = study_file.members(name)

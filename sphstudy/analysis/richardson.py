@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 ORDERS = (0.01, 50.0)
-"""Orders that can be given, and between which an observed one is looked for."""
+"""Limits of a given order, and of the search for an observed one."""
 
 BELIEVABLE = (0.2, 8.0)
 """An observed order outside this range is flagged: it says more about the data than about the method."""
@@ -24,8 +24,8 @@ SAFETY = 1.25
 """Roache's factor of safety for an order observed at three and more resolutions."""
 
 SAFETY_GIVEN = 2.0
-"""Factor of safety for a given order: one difference is what the uncertainty rests on, which disturbed
-values may make small by chance.
+"""Factor of safety for a given order: the uncertainty rests on one difference, which disturbed values may
+make small by chance.
 """
 
 FORMAL = 2.0
@@ -42,10 +42,18 @@ PAIR_ONLY = "two resolutions: as uncertain as the correction is large"
 
 @dataclass(frozen=True)
 class Extrapolation:
-    """value (v0) ± uncertainty, in the values' unit, and order; NaN where there is none.
+    """An extrapolated value.
 
-    flag: what is to be said about it, in words, "" if nothing. spacings (m) and values: what it is made
-    from, coarsest first.
+    Attributes
+    ----------
+    value, uncertainty : float
+        v0 ± uncertainty in the unit of the values; NaN if the values allow none.
+    order : float
+        Order of convergence p.
+    flag : str
+        Reservations in words, "" if there are none.
+    spacings, values : tuple of float
+        Particle spacings (m) and values that it is made from, coarsest first.
     """
 
     value: float
@@ -59,7 +67,7 @@ class Extrapolation:
 def extrapolate(
     spacings: Sequence[float], values: Sequence[float], order: float | None = None
 ) -> Extrapolation:
-    """v0 of values [N] at particle spacings [N] (m), in any sequence; order None: observed.
+    """The value at zero particle spacing.
 
     Given order, from two resolutions: v0 from the two finest. Uncertainty: from three resolutions, twice
     the difference to v0 from the next coarser pair, or, if more, twice the error that this difference
@@ -74,7 +82,19 @@ def extrapolate(
     given order and in 99 of 100 with an observed one; by 5 %, in four of five, observed ones from three
     resolutions included; by 10 %, only in six of ten of these.
 
-    Raises ValueError if a number is not finite, a spacing not positive, or the order not in ORDERS.
+    Parameters
+    ----------
+    spacings : sequence of float [N]
+        Particle spacings (m), in any sequence.
+    values : sequence of float [N]
+        The values at these spacings.
+    order : float, optional
+        Order of convergence; observed if not given.
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite, a spacing not positive, or the order not within ORDERS.
     """
     s, v = np.asarray(spacings, float), np.asarray(values, float)
     if s.ndim != 1 or s.shape != v.shape or not np.isfinite([s, v]).all() or (s <= 0.0).any():

@@ -1,4 +1,4 @@
-"""Time steps: how long stable ones are, and which are worth taking, from points already computed."""
+"""Time steps: how long stable ones are, and which are worth taking, from stored points."""
 
 import numpy as np
 import pandas as pd
@@ -7,17 +7,25 @@ from sphstudy.analysis.work_precision import ERRORS
 from sphstudy.catalogue import method_module
 
 SCHEME = ["method", "integrator", "damped"]
-"""What the limit of a body depends on beside h and ν: method, integrator, whether there is viscosity."""
+"""The limit of a body depends on these, h and ν: method, integrator, whether there is viscosity."""
 
 HARMLESS = 0.1
-"""Of the error that a result has anyway: what a time step may change it by and still be worth taking."""
+"""A time step is worth taking if it changes the error of a result by less than this share of it."""
 
 
 def limits(table: pd.DataFrame) -> pd.DataFrame:
-    """The searches for the largest stable step in a study's table, a row each, every record once.
+    """The searches for the largest stable step.
 
-    Columns: SCHEME, `h`, `n`, `nu`, `found` (largest stable C), `predicted` (C of 2/ω_max), `lowest` (the
-    smallest C tried), `message`; found and predicted NaN where there is none.
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        Table of a study's `Results`.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row for each record: SCHEME, `h`, `n`, `nu`, `found` (largest stable C), `predicted` (C of
+        2/ω_max; both NaN without a value), `lowest` (smallest C tried), `message`.
     """
     rows = _of_solver(table, "limit")
     if rows.empty:
@@ -37,12 +45,21 @@ def limits(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def changes(table: pd.DataFrame, scene: str = "plate") -> pd.DataFrame:
-    """What the time step does to the error of a scene's runs, a row a run, by SCHEME, h and time step.
+    """The change of the error by the time step.
 
-    Columns: SCHEME, `h`, `courant` (C of the step), `share` (of the largest stable one), `change` (of the
-    error against that with the shortest step, over the size of the latter; NaN unless the run is done),
-    `error` (that of the shortest step), `status`. Runs with no limit found in the table for their scheme,
-    h, n and ν are left out.
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        Table of a study's `Results`.
+    scene : str
+        Whose runs.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row for each run whose limit the table has: SCHEME, `h`, `courant` (C of the step), `share` (of
+        the largest stable step), `change` (of the error against the shortest step, relative to it; NaN
+        unless the run is done), `error` (with the shortest step), `status`.
     """
     known = limits(table).set_index([*SCHEME, "h", "n", "nu"])
     known = known[~known.index.duplicated()]
@@ -69,13 +86,19 @@ def _against_shortest(chosen: pd.DataFrame, metric: str) -> pd.DataFrame:
 
 
 def worth(found: pd.DataFrame) -> pd.DataFrame:
-    """For each scheme and h of `changes` the longest step worth taking: it is stable, and none up to it
-    changes the error by HARMLESS or more. A run may end before a step that is too long has done its harm.
+    """For each scheme and h the longest step worth taking: stable, and no step up to it changes the error
+    by HARMLESS or more.
+
+    Parameters
+    ----------
+    found : pandas.DataFrame
+        What `changes` gives.
     """
     best = []
     for _, chosen in found.groupby([*SCHEME, "h"]):
+        # Stable too: a run may end before a step that is too long has done its harm.
         good = ((chosen["change"] < HARMLESS) & (chosen["share"] <= 1.0)).to_numpy()
-        # A step that happens to be good beyond one that is not is not to be relied on.
+        # A good step beyond a bad one is luck.
         count = int(np.argmin(good)) if not good.all() else good.size
         if count:
             best.append(chosen.iloc[[count - 1]])

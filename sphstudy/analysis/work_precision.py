@@ -1,9 +1,9 @@
-"""Work and precision: which settings buy an error at the least CPU time, from points already computed.
+"""Work and precision: which settings reach an error at the least CPU time, from stored points.
 
-An error may be small by luck: where it changes sign along n, some resolution hits zero whatever the
-method is worth. So a point counts with its *assured* error, the largest of its own and of all finer
-resolutions with everything else the same, and an error is *confirmed* to be within a bound where at
-least one finer resolution is too.
+An error may be small by luck: where it changes sign along n, some resolution comes close to zero with
+any method. So a point counts with its *assured* error, the largest of its own and of all finer resolutions
+with everything else the same, and an error is *confirmed* to be within a bound if at least one finer
+resolution is too.
 """
 
 from collections.abc import Hashable, Iterable
@@ -22,28 +22,42 @@ ERRORS = {
     "mode1": "K_I_integral_error",
     "mode2": "K_II_integral_error",
 }
-"""For each scene the relative error that its points are judged by: against two-dimensional elasticity,
-or against the exact stress intensity.
-"""
+"""The relative error of each scene: against two-dimensional elasticity or the exact stress intensity."""
 
 BOUNDS = (0.05, 0.01, 0.001, 0.0001)
-"""Errors that a price is asked for."""
+"""Errors for which the cheapest setting is looked for."""
 
 CLEARLY = 1.1
-"""An error is lucky if that of a finer resolution is larger by more than this factor."""
+"""An error is lucky if a finer resolution has one that is larger by more than this factor."""
 
 _CHOICES = ("scene", "method", "solve", "h", "n", "seed")
 
 
 def points(table: pd.DataFrame, scene: str, metric: str | None = None) -> pd.DataFrame:
-    """The points of a scene in the table of a study's results that have run, each record once.
+    """The points of a scene that have run, each record once, cheapest first.
 
-    Beside the columns of the table: `error` (signed, NaN unless the run is done), `size` (its magnitude),
-    `series` (number that points have in common that differ in n alone), `assured` (largest size among
-    the point and all finer ones of its series), `finer` (how many of these there are), `lucky` (whether
-    one of them is clearly larger than its own) and `turns` (whether the next finer has another sign).
-    metric: the error, if not that of ERRORS. Raises ConfigurationError if the scene has no error of its
-    own.
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        Table of a study's `Results`.
+    scene : str
+        The scene.
+    metric : str, optional
+        The error; that of ERRORS if not given.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The columns of the table, and `error` (signed, NaN unless the run is done), `size` (its
+        magnitude), `series` (a number that points share which differ in n alone), `assured` (largest
+        size among the point and all finer ones of its series), `finer` (how many finer ones there are),
+        `lucky` (whether a finer one is clearly larger) and `turns` (whether the next finer one has
+        another sign).
+
+    Raises
+    ------
+    ConfigurationError
+        If no metric is given and ERRORS lacks the scene.
     """
     if metric is None and scene not in ERRORS:
         raise ConfigurationError([f"scene={scene}: add metric=NAME; known are {', '.join(ERRORS)}"])
@@ -60,7 +74,7 @@ def points(table: pd.DataFrame, scene: str, metric: str | None = None) -> pd.Dat
 
 
 def settings(columns: Iterable[str]) -> list[str]:
-    """Those columns of a table that are settings of a run."""
+    """The columns of a table that are settings of a run."""
     return [name for name in columns if name in _CHOICES or "." in name]
 
 
@@ -107,8 +121,12 @@ def _assured(found: pd.DataFrame) -> dict[str, pd.Series]:
 
 
 def front(found: pd.DataFrame) -> pd.DataFrame:
-    """The points that no cheaper one equals: the Pareto front of assured error over CPU time, cheapest
-    first. Of a series, the finest resolution has nothing that confirms it and stays out.
+    """The Pareto front of assured error over CPU time, cheapest first.
+
+    Parameters
+    ----------
+    found : pandas.DataFrame
+        What `points` gives. The finest point of each series stays out, since nothing confirms it.
     """
     kept, best = [], np.inf
     candidates = found[found["finer"] > 0].dropna(subset=["assured"]).sort_values("cpu_seconds")
@@ -123,9 +141,18 @@ def front(found: pd.DataFrame) -> pd.DataFrame:
 class Choice:
     """The cheapest point whose error is within a bound, and whether a finer one confirms it.
 
-    row: of the points. failed: the best, by assured error, of the cheaper points that miss the bound, and
-    confirming: the next finer of its series, both None if there are none. luckier: the cheapest point
-    within the bound if it is cheaper than this, but less to be relied on.
+    Attributes
+    ----------
+    row : pandas.Series
+        The point.
+    confirmed : bool
+        Whether a finer point is within the bound too.
+    failed : pandas.Series or None
+        The best, by assured error, of the cheaper points that miss the bound.
+    confirming : pandas.Series or None
+        The next finer point of its series.
+    luckier : pandas.Series or None
+        The cheapest point within the bound, if it is cheaper than `row`: less reliable.
     """
 
     row: pd.Series
@@ -136,10 +163,17 @@ class Choice:
 
 
 def cheapest(found: pd.DataFrame, bound: float) -> Choice | None:
-    """The cheapest of these points (see `points`) with an error within the bound.
+    """The cheapest point with an error within a bound; None if there is none.
 
-    Confirmed ones whose sign does not change at the next finer one go first, then other confirmed ones,
-    then those that nothing confirms, last those that a finer one contradicts. None if there are none.
+    Points are preferred that are confirmed and keep their sign at the next finer one, then other
+    confirmed ones, then those that nothing confirms, last those that a finer one contradicts.
+
+    Parameters
+    ----------
+    found : pandas.DataFrame
+        What `points` gives.
+    bound : float
+        The largest error allowed.
     """
     within = found[found["size"] <= bound]
     honest = within[within["assured"] <= bound]

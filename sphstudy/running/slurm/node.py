@@ -10,8 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from sphstudy.running.one_run import ELSEWHERE
-from sphstudy.store.lock import HEARTBEAT, LOST_AFTER
+from sphstudy.store.lock import ELSEWHERE, HEARTBEAT, LOST_AFTER
 
 STOPPED = "stopped"
 """A file of this name in the sweep's folder ends jobs that begin, and others before their next run."""

@@ -1,7 +1,7 @@
 """How far a metric may be from its reference: half of the smallest effect that any open choice has.
 
-Such an interval tells two variants of a method apart, and leaves room for another machine's rounding, whose
-size the control of the choices study measures.
+Such an interval tells two variants of a method apart, and leaves room for another machine's rounding: its
+size is measured by the control of the choices study.
 """
 
 from collections.abc import Iterable

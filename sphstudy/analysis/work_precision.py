@@ -1,9 +1,9 @@
 """Work and precision: which settings reach an error at the least CPU time, from stored points.
 
 An error may be small by luck: where it changes sign along n, some resolution comes close to zero with
-any method. So a point counts with its *assured* error, the largest of its own and of all finer resolutions
-with everything else the same, and an error is *confirmed* to be within a bound if at least one finer
-resolution is too.
+any method. So a point counts with its *assured* error, the largest of its own and of those of all finer
+resolutions in its series (all else the same), and an error is *confirmed* to be within a bound if that of
+at least one finer resolution is too.
 """
 
 from collections.abc import Hashable, Iterable

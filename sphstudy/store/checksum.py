@@ -2,14 +2,15 @@
 
 HDF5 has no checksums of attributes and single numbers and does not notice a changed bit there. It ignores
 bytes after its own: any reader of netCDF reads a sealed file. The text is a summary of the file: opening
-netCDF and going through its variables takes a hundred times longer than reading it. It has a short digest
-of its own, so that it can be trusted without reading the whole file:
+netCDF and going through its variables takes a hundred times longer than reading it. It has a checksum of
+its own, so that it can be trusted without reading the whole file:
 
-    netCDF file | text | digest of text and file size (8 bytes) | length of the text (8) | mark | SHA-256
+    netCDF file | text | CRC-32 of text and file size | length of the text (8 bytes) | mark | SHA-256
 """
 
 import hashlib
 import os
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -21,10 +22,11 @@ HOW = "a text and a digest follow the file's end"
 
 _MARK = b"sphstudy, sealed"
 _WITHOUT_OWN = b"sphstudy, digest"
-"""Mark of earlier versions, whose texts have no digest of their own."""
+"""Mark of earlier versions, whose texts have no checksum of their own."""
 
 _DIGEST = hashlib.sha256().digest_size
 _FOOT = 8 + len(_MARK) + _DIGEST
+_CRC = 4
 _AT_ONCE = 1 << 14
 """Bytes at the end of a file that are read first: more than foot and text of nearly all records."""
 
@@ -44,8 +46,8 @@ def seal(path: Path, text: str) -> None:
     summary = text.encode()
     with open(path, "r+b") as file:
         whole = hashlib.file_digest(file, "sha256")
-        size = file.seek(0, os.SEEK_END) + len(summary) + 8 + _FOOT
-        end = summary + _own(summary, size) + len(summary).to_bytes(8, "little") + _MARK
+        size = file.seek(0, os.SEEK_END) + len(summary) + _CRC + _FOOT
+        end = summary + _checksum(summary, size) + len(summary).to_bytes(8, "little") + _MARK
         whole.update(end)
         file.write(end + whole.digest())
 
@@ -92,29 +94,33 @@ def sealed_text(path: Path) -> str | None:
     ValueError
         If the text or the size of the file has changed since the file was sealed.
     """
-    with open(path, "rb", buffering=0) as file:
-        size = file.seek(0, os.SEEK_END)
-        end = os.pread(file.fileno(), _AT_ONCE, max(0, size - _AT_ONCE))
+    # Twenty thousand records are looked at in a row: no more calls than it takes.
+    file = os.open(path, os.O_RDONLY)
+    try:
+        size = os.fstat(file).st_size
+        end = os.pread(file, _AT_ONCE, max(0, size - _AT_ONCE))
         mark = end[8 - _FOOT : -_DIGEST]
         if mark == _WITHOUT_OWN:
             check_seal(path)
         elif mark != _MARK:
             return None
-        own = 8 if mark == _MARK else 0
+        own = _CRC if mark == _MARK else 0
         length = int.from_bytes(end[-_FOOT : 8 - _FOOT], "little")
         needed = length + own + _FOOT
         if needed > size:
             raise ValueError(_CHANGED)
         if needed > len(end):
-            end = os.pread(file.fileno(), needed, size - needed)
+            end = os.pread(file, needed, size - needed)
+    finally:
+        os.close(file)
     text = end[len(end) - needed : len(end) - needed + length]
-    if own and _own(text, size) != end[-_FOOT - own : -_FOOT]:
+    if own and _checksum(text, size) != end[-_FOOT - own : -_FOOT]:
         raise ValueError(_CHANGED)
     return text.decode()
 
 
-def _own(text: bytes, size: int) -> bytes:
-    return hashlib.blake2b(text + size.to_bytes(8, "little"), digest_size=8).digest()
+def _checksum(text: bytes, size: int) -> bytes:
+    return zlib.crc32(text, size).to_bytes(_CRC, "little")
 
 
 def remove_marker(attributes: dict[str, Any], sealed: bool) -> None:

@@ -7,19 +7,19 @@
 <results>/runs/<label>-<key>.unreadable     a damaged or foreign file of that name, set aside
 <results>/sweeps/<name>.nc                  a combined dataset
 
-Tables, plans and `status` read the summary at the end of a record, which has a digest of its own. All
-bytes of a record are checked when it is loaded: for a figure, a judgement, by `measure`, from Python.
+Tables, plans and `status` read the summary at the end of a record, which has a checksum of its own.
+All bytes of a record are checked when it is loaded: for a figure, a judgement, by `measure`, from Python.
 """
 
 import errno
 import itertools
+import json
 import os
 import sys
 import tempfile
 from pathlib import Path
 
 import xarray as xr
-from pydantic_core import from_json
 
 from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.errors import ConfigurationError
@@ -152,7 +152,7 @@ def summarised(path: Path) -> Summary:
         found = of_text(text or "")
     except ValueError:
         # Sealed by another version, or before there were seals.
-        found = of_record(load(path))
+        return _loaded(path)[1]
     _check(path, found)
     return found
 
@@ -166,12 +166,19 @@ def read(path: Path) -> xr.Dataset | None:
         If the system does not let it be read now.
     """
     try:
-        run = load(path)
-        _check(path, of_record(run))
-        return run
+        return _loaded(path)[0]
     except UNREADABLE as error:
         _refuse(path, error)
         return None
+
+
+def _loaded(path: Path) -> tuple[xr.Dataset, Summary]:
+    run = load(path)
+    found = of_record(run)
+    _check(path, found)
+    if not isinstance(json.loads(found.attributes["configuration"]), dict):
+        raise ValueError("without a configuration")
+    return run, found
 
 
 def _check(path: Path, found: Summary) -> None:
@@ -179,10 +186,8 @@ def _check(path: Path, found: Summary) -> None:
     attributes = found.attributes
     if any(not isinstance(attributes.get(name), str) for name in _NEEDED):
         raise ValueError("not a record of this program")
-    if attributes["key"] != path.stem.rpartition("-")[2]:
+    if path.name.rpartition("-")[2] != f"{attributes['key']}.nc":
         raise ValueError(f"the record of another run, {attributes['title']}-{attributes['key']}")
-    if not isinstance(from_json(attributes["configuration"]), dict):
-        raise ValueError("without a configuration")
 
 
 def _refuse(path: Path, error: Exception) -> None:

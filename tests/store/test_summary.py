@@ -65,8 +65,8 @@ def test_the_summary_is_what_is_looked_at(run, tmp_path):
     assert summarised(path) == other
 
 
-FOOT = 64
-"""Bytes behind the text: its own digest, its length, the mark, the digest of the file."""
+FOOT = 60
+"""Bytes behind the text: its own checksum, its length, the mark, the digest of the file."""
 
 
 @pytest.mark.parametrize("place", [0, 700, -1, -30, -40, -50, -60, -70])

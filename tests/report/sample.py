@@ -15,7 +15,6 @@ from sphstudy.analysis.claims.claim import NOT, Finding
 from sphstudy.analysis.results import Missing
 from sphstudy.metrics.metric import Metric
 from sphstudy.report import page
-from sphstudy.report.figure import figure
 from sphstudy.store import identity, record
 from sphstudy.store.store import Store, write
 
@@ -90,7 +89,9 @@ def load(folder, monkeypatch, hydra, stored=True):
     monkeypatch.setitem(catalogue.FOLDERS, "studies", folder)
     drawn = ModuleType("made_up")
     for name in ("good", "unwritable", "broken", "lacking"):
-        setattr(drawn, name, figure("9.1", f"A {name} figure.")(globals()[f"_{name}"]))
+        setattr(
+            drawn, name, FigureDefinition(f"made_up.{name}", "9.1", f"A {name} figure.", FIGURES[name])
+        )
     monkeypatch.setitem(sys.modules, "sphstudy.report.figures.made_up", drawn)
     rule = claim.claim("T1", "All is well.", "page 1", reproduced="yes", partly="half", otherwise="no")
     monkeypatch.setattr(

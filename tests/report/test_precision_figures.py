@@ -2,21 +2,21 @@
 
 import copy
 
-import matplotlib.style
 import numpy as np
 import pytest
 
 from sphstudy.analysis import results, work_precision
 from sphstudy.analysis.results import Missing
 from sphstudy.configuration.composition import session
-from sphstudy.report import cheapest, figure
+from sphstudy.report import cheapest
 from sphstudy.report.figures import precision as figures
+from tests.support.figures import drawn
 
 SCENES = {
-    "plate": figures.plate,
-    "bending": figures.bending,
-    "mode1": figures.mode1,
-    "mode2": figures.mode2,
+    "plate": "precision.plate",
+    "bending": "precision.bending",
+    "mode1": "precision.mode1",
+    "mode2": "precision.mode2",
 }
 
 
@@ -42,13 +42,6 @@ def full(empty):
     return found
 
 
-def drawn(definition, found):
-    with matplotlib.style.context(figure.STYLE):
-        drawing = definition.draw(found)
-        drawing.canvas.draw()
-    return drawing
-
-
 @pytest.mark.parametrize("scene", SCENES)
 def test_every_point_is_there_at_its_cost(scene, full):
     axes = drawn(SCENES[scene], full).axes[0]
@@ -69,7 +62,7 @@ def test_lucky_points_are_hollow_and_not_on_the_front(full):
     lucky = (full.table["solve"] == "modes") & (full.table["h"] == 1.3) & (full.table["n"] == 7)
     found.table = full.table.copy()
     found.table.loc[lucky, "frequency_error_2d"] = 1e-6
-    axes = drawn(figures.plate, found).axes[0]
+    axes = drawn("precision.plate", found).axes[0]
     white = [one for one in axes.get_lines() if one.get_markerfacecolor() == "white"]
     (point,) = np.concatenate([one.get_xydata() for one in white])
     assert point[1] == pytest.approx(1e-4)

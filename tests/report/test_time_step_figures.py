@@ -2,16 +2,15 @@
 
 import copy
 
-import matplotlib.style
 import numpy as np
 import pytest
 
 from sphstudy.analysis import results, time_steps
 from sphstudy.analysis.results import Missing
 from sphstudy.configuration.composition import session
-from sphstudy.report import figure
 from sphstudy.report import time_steps as step_tables
 from sphstudy.report.figures import time_step as figures
+from tests.support.figures import drawn
 
 NONE = "no stable step found down to C = 0.2"
 ERROR = -0.02
@@ -43,13 +42,6 @@ def full(empty):
     table.loc[~searched & (share > 1.0), "status"] = "diverged"
     found.table = table
     return found
-
-
-def drawn(definition, found):
-    with matplotlib.style.context(figure.STYLE):
-        drawing = definition.draw(found)
-        drawing.canvas.draw()
-    return drawing
 
 
 def test_limits_are_read_with_the_integrator_that_ran(full):

@@ -2,7 +2,6 @@
 
 import copy
 
-import matplotlib.style
 import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
@@ -17,7 +16,14 @@ from sphstudy.metrics.regularity import nearest_distances
 from sphstudy.metrics.von_mises import von_mises
 from sphstudy.model.exact import williams
 from sphstudy.report import figure
-from sphstudy.report.figures import crack_field, side_by_side, side_by_side_fields, total_lagrangian
+from sphstudy.report.figures import (
+    bending,
+    crack_field,
+    side_by_side,
+    side_by_side_fields,
+    total_lagrangian,
+)
+from tests.support.figures import drawn, line
 
 MODULES = (side_by_side, side_by_side_fields, total_lagrangian)
 STUDIES = ("thesis_vs_tl", "tl_plate", "tl_bending", "tl_mode1", "tl_mode2")
@@ -85,8 +91,7 @@ def full(empty, records):
 @pytest.fixture(autouse=True)
 def early(monkeypatch):
     monkeypatch.setattr(total_lagrangian, "EARLY", EARLY)
-    for module in (total_lagrangian, side_by_side_fields):
-        monkeypatch.setattr(module, "LONG", LONG)
+    monkeypatch.setattr(bending, "LONG", LONG)
 
 
 def changed(found, rows, **values):
@@ -96,18 +101,6 @@ def changed(found, rows, **values):
     for column, value in values.items():
         result.table.loc[rows, column] = value
     return result
-
-
-def drawn(definition, found):
-    with matplotlib.style.context(figure.STYLE):
-        drawing = definition.draw(found)
-        drawing.canvas.draw()
-    return drawing
-
-
-def line(axes, label):
-    (found,) = (one for one in axes.get_lines() if one.get_label() == label)
-    return found.get_xydata().T
 
 
 def centres(axes):
@@ -128,7 +121,7 @@ def test_an_empty_store_is_said_to_lack_data(name, definition, empty):
 
 
 def test_every_figure_is_listed_once():
-    there = {d for m in MODULES for d in vars(m).values() if isinstance(d, figure.FigureDefinition)}
+    there = {definition for module in MODULES for definition in figure.defined(module)}
     listed = [case.values[1] for case in LISTED]
     assert there == set(listed)
     assert len({definition.number for definition in listed}) == len(listed)
@@ -139,7 +132,10 @@ def test_each_method_has_its_panel_and_its_own_numbers(full):
     cases = [(side_by_side.plate_frequency, "plate", ["frequency_error_2d"], "n_y")]
     cases += [
         (rates, f"mode{mode}", ["G1_error", "G2_error", f"K_{'I' * mode}_integral_error"], "n_x")
-        for mode, rates in ((1, side_by_side.mode1_release_rates), (2, side_by_side.mode2_release_rates))
+        for mode, rates in (
+            (1, "side_by_side.mode1_release_rates"),
+            (2, "side_by_side.mode2_release_rates"),
+        )
     ]
     for definition, scene, metrics, symbol in cases:
         panels = np.reshape(drawn(definition, found).axes, (-1, 2))
@@ -271,7 +267,7 @@ def test_positions_wait_for_both_runs_and_for_their_time(full, empty, monkeypatc
     found._other = lambda name, overrides: (empty if name == "bending_long" else full)[name]
     with pytest.raises(Missing, match=r"bending_long: bending h=1\.7 n=9 is missing"):
         drawn(side_by_side_fields.bending_positions, found)
-    monkeypatch.setattr(total_lagrangian, "LONG", 150.0)
+    monkeypatch.setattr(bending, "LONG", 150.0)
     with pytest.raises(Missing, match="t = 150 s"):
         drawn(total_lagrangian.bending_held, full["tl_bending"])
 
@@ -365,7 +361,7 @@ def test_the_spacing_needs_the_h_that_is_refined(full):
     found = full["tl_mode1"]
     with pytest.raises(Missing, match=r"h=1\.3"):
         drawn(
-            total_lagrangian.mode1_stress_intensity,
+            "total_lagrangian.mode1_stress_intensity",
             changed(found, found.table["h"] == 1.3, G1_error=np.nan),
         )
 
@@ -374,7 +370,7 @@ def test_one_resolution_is_drawn_without_a_limit(full):
     found = full["tl_mode1"]
     gone = found.table["n"] != 40
     axes, zero = drawn(
-        total_lagrangian.mode1_stress_intensity,
+        "total_lagrangian.mode1_stress_intensity",
         changed(found, gone, G1_error=np.nan, J_error=np.nan, K_I_integral_error=np.nan),
     ).axes
     assert len(line(axes, "$J$")[0]) == 1

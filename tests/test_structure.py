@@ -30,7 +30,6 @@ KNOWN: set[str] = {
     "commands <-> running",
     "configuration <-> running/slurm",
     "configuration/composition -> running/slurm/settings",
-    "configuration/composition.py is long",
     "model/constraints -> numerics/compilation",
     "numerics/solvers/equilibrium -> configuration/run_settings",
     "numerics/solvers/limit -> configuration/run_settings",

@@ -52,7 +52,7 @@ class Group:
     @property
     def headline(self) -> list[str]:
         """The metrics for tables of its points, as far as any point of the study has them."""
-        kinds = dict.fromkeys((config.scene.kind, config.solve.name) for config in self.configs)
+        kinds = dict.fromkeys((config.scene.name, config.solve.name) for config in self.configs)
         names = dict.fromkeys(name for kind in kinds for name in headline(*kind))
         return [name for name in names if name in self.results.attributes]
 

@@ -2,7 +2,8 @@
 
 import xarray as xr
 
-from sphstudy.catalogue import scene_module, solver_module
+from sphstudy import catalogue
+from sphstudy.catalogue import solver_module
 from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.metrics.metric import measure
 from sphstudy.store import identity, record
@@ -17,7 +18,7 @@ def measured(run: xr.Dataset, config: RunConfig) -> xr.Dataset:
     metrics = {}
     own = hasattr(solver_module(config.solve.name), "HEADLINE")
     if record.STATUS[int(run["status"])] == "done" and not own:
-        metrics = measure(run, config, scene_module(config.scene.kind).METRICS)
+        metrics = measure(run, config, catalogue.metrics(config.scene.name))
         remarks = [metric.remark for metric in metrics.values() if metric.remark]
         run.attrs["message"] = "; ".join(dict.fromkeys(remarks))
     return record.with_metrics(run, metrics, identity.metrics_version(config))

@@ -1,9 +1,9 @@
 """Whether two folders of results hold the same numbers to the last bit.
 
-`python -m tests.stress.bits FOLDER FOLDER` compares each record of the second folder with the records of the
-first that have its label and its configuration: all variables that both have, except times and memory. A
-setting counts by its own name, in whichever section it stands, so that records from before a setting moved
-(solve.damping, method.damping) find their partners; settings that only one record has are left out.
+`python -m tests.stress.bits FOLDER FOLDER` compares each record of the second folder with the records of
+the first that have its label and its configuration: all variables that both have, except times and
+memory. A setting counts by its own name, in whichever section it stands, so that records from before it
+moved (solve.damping, method.damping) find their partners; settings that only one record has are left out.
 
 Exit status: 0 if all are the same, 1 if a number differs or if nothing could be compared.
 """

@@ -17,7 +17,9 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from sphstudy.analysis.results import Results
-from sphstudy.errors import ConfigurationError
+from sphstudy.errors import ConfigurationError, unknown
+
+_FOLDER = Path(__file__).parent / "figures"
 
 STYLE = Path(__file__).parent / "figures.mplstyle"
 """The style sheet of all figures."""
@@ -97,8 +99,10 @@ def find(name: str) -> FigureDefinition:
     try:
         there = list(defined(importlib.import_module(f"sphstudy.report.figures.{module}")))
     except ModuleNotFoundError:
-        there = []
+        modules = (f"{path.stem}.…" for path in sorted(_FOLDER.glob("[!_]*.py")))
+        raise ConfigurationError([unknown("figure", name, modules)]) from None
     for found in there:
         if found.name == f"{module}.{function}" and bool(argument) == ("{}" in found.number):
             return found.of(argument) if argument else found
-    raise ConfigurationError([f"figure {name}: there is no such figure"])
+    names = (one.name + (".…" if "{}" in one.number else "") for one in there)
+    raise ConfigurationError([unknown("figure", name, names)])

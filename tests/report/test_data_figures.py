@@ -1,7 +1,5 @@
 """Figures of stored data draw from whatever part of it is there, and show the numbers that are stored."""
 
-import copy
-
 import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
@@ -24,6 +22,7 @@ from sphstudy.report.figures import (
     von_mises,
 )
 from tests.support.figures import drawn, line
+from tests.support.results import altered
 
 STUDIES = ("plate", "bending", "bending_long", "mode1", "mode2", "choices", "conjectures")
 MODULES = (plate, von_mises, bending, crack, crack_field, release_rates, choices, conjectures)
@@ -73,22 +72,20 @@ def full(empty, records):
 
 
 def filled(found, records, random):
-    result = copy.copy(found)
-    result.table, result.attributes = found.table.assign(status="done"), {}
+    table, attributes = found.table.assign(status="done"), {}
     for scene in found.table["scene"].unique():
         rows = found.table["scene"] == scene
         for name, variable in records[scene].data_vars.items():
             if variable.attrs.get("group") == "metric":
-                result.attributes[name] = variable.attrs
-                result.table.loc[rows, name] = random.uniform(0.01, 0.5, rows.sum())
-    result._record = lambda row: records[result.table.at[row, "scene"]]
-    return result
+                attributes[name] = variable.attrs
+                table.loc[rows, name] = random.uniform(0.01, 0.5, rows.sum())
+    record = lambda row: records[table.at[row, "scene"]]  # noqa: E731
+    return altered(found, table=table, attributes=attributes, record=record)
 
 
 def without(found, column, rows):
     """The same results with a metric gone in some rows (a mask)."""
-    result = copy.copy(found)
-    result.table = found.table.copy()
+    result = altered(found)
     result.table.loc[rows, column] = np.nan
     return result
 
@@ -150,7 +147,7 @@ def test_unstable_cells_are_ringed_and_no_others(full):
 
 
 def test_the_axis_shows_zero_where_that_is_cheap(full):
-    near, far = copy.copy(full["mode1"]), copy.copy(full["mode1"])
+    near, far = altered(full["mode1"]), altered(full["mode1"])
     spread = np.linspace(0.0, 0.1, len(near.table))
     near.table, far.table = (near.table.assign(G2_error=low + spread) for low in (0.05, 0.2))
     limits = [
@@ -277,8 +274,7 @@ def test_the_deformed_square_stands_at_its_positions(full, records):
 
 
 def test_effects_have_size_sign_and_what_is_missing(full):
-    found = copy.copy(full["choices"])
-    found.table = found.table.copy()
+    found = altered(full["choices"])
     rows = found.table["block"] == "mode1"
     changes = {
         "": 0.0,

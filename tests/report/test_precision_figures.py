@@ -1,7 +1,5 @@
 """Figures and tables of work and precision show what is stored, failed points included."""
 
-import copy
-
 import numpy as np
 import pytest
 
@@ -11,6 +9,7 @@ from sphstudy.configuration.composition import session
 from sphstudy.report import cheapest
 from sphstudy.report.figures import precision as figures
 from tests.support.figures import drawn
+from tests.support.results import altered
 
 SCENES = {
     "plate": "precision.plate",
@@ -30,7 +29,7 @@ def empty(tmp_path_factory):
 @pytest.fixture(scope="module")
 def full(empty):
     """The same with made-up numbers: errors of first order in 1/n, costs that grow with n."""
-    found = copy.copy(empty)
+    found = altered(empty)
     table = empty.table.assign(status="done", steps=100.0, compile_seconds=3.0)
     table["particles"] = 12.0 * table["n"] ** 2
     table["cpu_seconds"] = 1e-5 * table["particles"] * table["h"]
@@ -58,9 +57,8 @@ def test_every_point_is_there_at_its_cost(scene, full):
 
 
 def test_lucky_points_are_hollow_and_not_on_the_front(full):
-    found = copy.copy(full)
+    found = altered(full)
     lucky = (full.table["solve"] == "modes") & (full.table["h"] == 1.3) & (full.table["n"] == 7)
-    found.table = full.table.copy()
     found.table.loc[lucky, "frequency_error_2d"] = 1e-6
     axes = drawn("precision.plate", found).axes[0]
     white = [one for one in axes.get_lines() if one.get_markerfacecolor() == "white"]

@@ -1,7 +1,5 @@
 """Time steps: what is made of stored points, and that figures and tables show it."""
 
-import copy
-
 import numpy as np
 import pytest
 
@@ -11,6 +9,7 @@ from sphstudy.configuration.composition import session
 from sphstudy.report import time_steps as step_tables
 from sphstudy.report.figures import time_step as figures
 from tests.support.figures import drawn
+from tests.support.results import altered
 
 NONE = "no stable step found down to C = 0.2"
 ERROR = -0.02
@@ -28,7 +27,7 @@ def full(empty):
     """The same with made-up numbers: limits C = h (0.985 of what is predicted), none without damping by
     Heun's method; errors that change by 0.3 (Δt/limit)², and runs that diverge beyond the limit.
     """
-    found = copy.copy(empty)
+    found = altered(empty)
     table = empty.table.assign(status="done", message="")
     searched, undamped = table["solve"] == "limit", table["block"].str.endswith("undamped")
     table["predicted_courant"] = (table["h"] / 0.985).where(searched & (table["method"] == "tl"))

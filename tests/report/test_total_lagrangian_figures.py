@@ -1,7 +1,5 @@
 """Figures of the total Lagrangian method, alone and beside the thesis's, show what is stored."""
 
-import copy
-
 import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
@@ -24,6 +22,7 @@ from sphstudy.report.figures import (
     total_lagrangian,
 )
 from tests.support.figures import drawn, line
+from tests.support.results import altered
 
 MODULES = (side_by_side, side_by_side_fields, total_lagrangian)
 STUDIES = ("thesis_vs_tl", "tl_plate", "tl_bending", "tl_mode1", "tl_mode2")
@@ -76,15 +75,16 @@ def full(empty, records):
     """The same studies with made-up metrics, and the small record of scene and method at every point."""
     random, found = np.random.default_rng(4), {}
     for name, without in empty.items():
-        result = found[name] = copy.copy(without)
         rows = len(without.table)
         made_up = {metric: random.uniform(0.01, 0.03, rows) for metric in METRICS}
         spacing = 0.2 / without.table["n"]
-        result.table = without.table.assign(status="done", spacing=spacing, **made_up)
-        result._record = lambda row, table=result.table: records[
-            table.at[row, "scene"], table.at[row, "method"]
-        ]
-        result._other = lambda other, overrides: found[other]
+        table = without.table.assign(status="done", spacing=spacing, **made_up)
+        found[name] = altered(
+            without,
+            table=table,
+            record=lambda row, table=table: records[table.at[row, "scene"], table.at[row, "method"]],
+            other=lambda other, overrides: found[other],
+        )
     return found
 
 
@@ -96,8 +96,7 @@ def early(monkeypatch):
 
 def changed(found, rows, **values):
     """The same results with other values in some rows (a mask)."""
-    result = copy.copy(found)
-    result.table = found.table.copy()
+    result = altered(found)
     for column, value in values.items():
         result.table.loc[rows, column] = value
     return result
@@ -215,7 +214,7 @@ def test_runs_without_an_error_have_no_place_in_the_cost(full):
         for name, found in full.items()
     }
     found = lacking["thesis_vs_tl"]
-    found._other = lambda name, overrides: lacking[name]
+    found = altered(found, other=lambda name, overrides: lacking[name])
     with pytest.raises(Missing, match="no point of scene mode1 has K_I_integral_error"):
         drawn(side_by_side.error_and_cost, found)
 
@@ -263,8 +262,10 @@ def test_particles_beside_the_wall_stand_where_they_are(definition, name, panels
 
 
 def test_positions_wait_for_both_runs_and_for_their_time(full, empty, monkeypatch):
-    found = copy.copy(full["thesis_vs_tl"])
-    found._other = lambda name, overrides: (empty if name == "bending_long" else full)[name]
+    found = altered(
+        full["thesis_vs_tl"],
+        other=lambda name, overrides: (empty if name == "bending_long" else full)[name],
+    )
     with pytest.raises(Missing, match=r"bending_long: bending h=1\.7 n=9 is missing"):
         drawn(side_by_side_fields.bending_positions, found)
     monkeypatch.setattr(bending, "LONG", 150.0)

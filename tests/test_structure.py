@@ -30,7 +30,6 @@ KNOWN: set[str] = {
     "commands <-> running",
     "configuration <-> running/slurm",
     "configuration/composition -> running/slurm/settings",
-    "configuration/composition.py is long",
     "model/constraints -> numerics/compilation",
     "numerics/solvers/equilibrium -> configuration/run_settings",
     "numerics/solvers/limit -> configuration/run_settings",
@@ -44,7 +43,7 @@ KNOWN: set[str] = {
 
 @cache
 def imports() -> dict[str, set[str]]:
-    """For each module of the package, by its name below it, the modules of the package that it imports."""
+    """For each module of the package, by its name below it, the modules that it imports."""
     files = {path.relative_to(PACKAGE).with_suffix("").as_posix(): path for path in PACKAGE.rglob("*.py")}
 
     def named(dotted: str) -> str | None:

@@ -1,9 +1,6 @@
-"""From the command line to points: Hydra composes, wrong input is answered before anything runs."""
+"""From overrides to points: Hydra composes; wrong input is answered before anything runs."""
 
 import dataclasses
-import difflib
-import itertools
-import math
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,29 +9,36 @@ from functools import cache
 from typing import Any
 
 from hydra import initialize_config_dir
-from hydra._internal.core_plugins.basic_sweeper import BasicSweeper
+from hydra.core.config_search_path import ConfigSearchPath
 from hydra.core.global_hydra import GlobalHydra
-from hydra.core.override_parser.overrides_parser import OverridesParser
-from hydra.core.override_parser.types import Override
+from hydra.core.plugins import Plugins
 from hydra.errors import HydraException
+from hydra.plugins.search_path_plugin import SearchPathPlugin
 from hydra.types import RunMode
-from omegaconf import DictConfig, OmegaConf
+from omegaconf import OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
 from sphstudy import catalogue
 from sphstudy.catalogue import solver_module
-from sphstudy.configuration.execution import RETRIES, Execution
+from sphstudy.configuration.execution import RETRIES, SETTINGS, Execution, taken
+from sphstudy.configuration.overrides import (
+    SEARCH_PATH,
+    Grammar,
+    applied,
+    grid,
+    launcher_overrides,
+    rounded,
+    searched,
+)
 from sphstudy.configuration.run_settings import RunConfig, validate
-from sphstudy.errors import ConfigurationError
-from sphstudy.parameters import checked
+from sphstudy.errors import ConfigurationError, unknown
 
 LAUNCHERS = ("local", "basic", "slurm")
 """Side by side on this machine, one after the other in this process, jobs of a SLURM cluster."""
 
-MOST_POINTS = 100_000
-"""Of one sweep: more are a slip of the pen, and take all memory."""
-
-_LAUNCHER = ("hydra/launcher", "hydra.launcher")
+_GROUPS = ("scene", "method", "solve")
+_LISTS = ("metrics", "headline", "protocol", "source", "bounds", "quoted")
+"""Sections of a scene's file that are no settings of a run: the catalogue reads them."""
 
 
 @dataclass(frozen=True)
@@ -55,67 +59,101 @@ class Launcher:
     settings: dict[str, Any]
 
 
-@dataclass(frozen=True)
-class _Taken:
-    """An override as it is applied: what was written, and whether it chooses from a group; if not, which
-    value below a path of keys it sets, and to what.
-    """
-
-    line: str
-    is_group: bool
-    path: tuple[str, ...]
-    name: str
-    value: Any
-
-
 class _NotValid(ConfigurationError):
     """A point that was composed but does not make a run."""
 
 
-class Session:
-    """Hydra, ready to compose configurations from `conf/` and to launch runs."""
+class _OwnSettings(SearchPathPlugin):
+    """Makes Hydra look into the user's folders of settings before the package's."""
 
-    def __init__(self):
+    def manipulate_search_path(self, search_path: ConfigSearchPath) -> None:
+        for place in reversed(catalogue.settings_folders()[:-1]):
+            search_path.prepend("own", f"file://{place}", anchor="main")
+
+
+@contextmanager
+def session(config_dir: str | None = None) -> Iterator["Session"]:
+    """A Session on the package's settings, and on those of the user.
+
+    Parameters
+    ----------
+    config_dir : str, optional
+        A folder of the user's with files of settings; it stays known to this process afterwards, since
+        tables and pages ask for the lists of a scene.
+
+    Raises
+    ------
+    ConfigurationError
+        If there is no such folder.
+    """
+    if config_dir is not None:
+        catalogue.add_settings(config_dir)
+    with _hydra():
+        yield Session()
+
+
+def _hydra() -> initialize_config_dir:
+    folder = str(catalogue.folder("conf").resolve())
+    return initialize_config_dir(folder, version_base="1.3", job_name="sphstudy")
+
+
+Plugins.instance().register(_OwnSettings)
+
+
+class Session:
+    """Hydra, ready to compose configurations (see `session`)."""
+
+    def __init__(self) -> None:
+        self._begin()
+
+    def _begin(self) -> None:
         self._loader = GlobalHydra.instance().config_loader()
-        self._parser = OverridesParser.create(config_loader=self._loader)
-        self._composed: dict[tuple[str, ...], dict[str, Any]] = {}
         # Hydra looks through its folders every time it is asked.
-        self._options = cache(self._loader.get_group_options)
-        # The same few overrides make a large grid.
-        self._taken = cache(self._take)
+        self._grammar = Grammar(cache(self._loader.get_group_options))
+        self._composed: dict[tuple[str, ...], dict[str, Any]] = {}
+
+    def search_path(self) -> list[str]:
+        """Where Hydra looks for settings, the first place that has a file counting."""
+        return [str(place.path) for place in self._loader.get_search_path().get_path()]
 
     def points(
         self, arguments: list[str], sweep: bool, skipped: list[str] | None = None
     ) -> tuple[list[Point], str]:
-        """All points that the overrides span, validated, and the folder of their results.
+        """All points that overrides span, validated.
 
-        Raises ConfigurationError with all complaints. Without `sweep`, a list of values is one. Given a
-        list `skipped`, points that are not valid are left out, and the complaints added to it.
+        Parameters
+        ----------
+        arguments : list of str
+            Overrides.
+        sweep : bool
+            Whether several values of a setting make several points; if not, they are an error.
+        skipped : list of str, optional
+            If given, points that are not valid are left out, and complaints about them added here.
+
+        Returns
+        -------
+        list of Point, str
+            The points, and the folder of their results.
+
+        Raises
+        ------
+        ConfigurationError
+            With all complaints about all points.
         """
-        overrides = self._parse([a for a in arguments if a not in launcher_overrides(arguments)])
-        if not sweep:
-            many = [o for o in overrides if o.is_sweep_override()]
-            if many:
-                raise ConfigurationError(
-                    [f"{o.input_line}: several values make a sweep: add -m" for o in many]
-                )
-        if (spanned := _spanned(overrides)) > MOST_POINTS:
-            raise ConfigurationError([f"a sweep of {spanned:,} points or more: at most {MOST_POINTS:,}"])
-        grid = BasicSweeper.split_arguments(overrides, None)[0]
         complaints: dict[str, None] = {}
         points: list[Point] = []
         results = set()
-        for choice in grid:
+        for choice in self._grid(arguments, sweep):
             try:
-                composed = self._compose(choice)
+                composed = self._composition(choice)
                 results.add(str(composed.pop("results")))
-                retry, execution = composed.pop("retry"), taken_execution(composed)
+                retry, execution = composed.pop("retry"), taken(composed)
                 if retry not in RETRIES:
-                    raise ConfigurationError([f"retry={retry}: there is {', '.join(RETRIES)}"])
-                config = self._validated(composed)
+                    raise ConfigurationError([unknown("retry", retry, RETRIES)])
+                config = _validated(composed)
                 if complaint := _too_many(execution.threads, config):
                     raise ConfigurationError([complaint])
-                points.append(Point(tuple(choice), config, execution, retry))
+                points.append(Point(choice, config, execution, retry))
             except _NotValid as error:
                 if skipped is None:
                     complaints |= dict.fromkeys(error.complaints)
@@ -123,106 +161,45 @@ class Session:
                     skipped += error.complaints
             except ConfigurationError as error:
                 complaints |= dict.fromkeys(error.complaints)
-            except (HydraException, OmegaConfBaseException) as error:
-                complaints[f"{' '.join(choice)}: {str(error).splitlines()[0]}"] = None
         if len(results) > 1:
-            complaints["results: one folder for all points, please"] = None
+            complaints["results: all points of a sweep need the same folder"] = None
         if complaints:
             raise ConfigurationError(list(complaints))
         return points, results.pop()
 
-    def _validated(self, composed: dict[str, Any]) -> RunConfig:
-        try:
-            return validate(composed)
-        except ConfigurationError as error:
-            raise _NotValid(error.complaints) from None
+    def composed(self, arguments: list[str]) -> dict[str, Any]:
+        """What overrides make of the settings, not validated.
 
-    def _parse(self, arguments: list[str]) -> list[Override]:
-        complaints = []
-        overrides: list[Override] = []
-        for argument in arguments:
-            try:
-                override = self._parser.parse_override(argument)
-            except (HydraException, ValueError, RecursionError):
-                complaints.append(f"{_shortened(argument)}: not understood; write key=value")
-                continue
-            complaints += self._complaint(override)
-            if any(other.key_or_group == override.key_or_group for other in overrides):
-                complaints.append(f"{argument}: {override.key_or_group} is given twice")
-            overrides.append(override)
-        if complaints:
-            raise ConfigurationError(complaints)
-        return overrides
+        Parameters
+        ----------
+        arguments : list of str
+            Overrides, one value each.
 
-    def _complaint(self, override: Override) -> Iterator[str]:
-        """What is wrong with one override, before its value is looked at."""
-        line, key = str(override.input_line), override.key_or_group
-        if override.is_add() or override.is_delete() or override.package is not None:
-            yield f"{line}: write key=value; keys cannot be added, deleted or moved"
-        elif "${" in line:
-            yield f"{line}: interpolations are not taken from the command line"
-        elif key == "known":
-            yield f"{line}: set by the program itself"
-        elif key.startswith("hydra"):
-            yield f"{line}: of Hydra's own keys, hydra/launcher and hydra.launcher.* can be set"
-        elif override.is_sweep_override() and not override.is_discrete_sweep():
-            yield f"{line}: write single values, or a range"
-        elif (count := _spanned([override])) > MOST_POINTS:
-            yield f"{line}: more than {MOST_POINTS:,} values"
-        elif count == 0:
-            yield f"{line}: stands for no values"
-        elif "." not in key and (options := self._options(key)):
-            many = override.is_sweep_override()
-            for value in override.sweep_iterator() if many else [override.value()]:
-                if value not in options:
-                    yield f"{key}={value}: there is {', '.join(options)}"
-                    break
-
-    def _compose(self, overrides: list[str]) -> dict[str, Any]:
-        """The plain dictionary for one point.
-
-        Configuration groups are composed once per choice; single values are set on a copy.
+        Raises
+        ------
+        ConfigurationError
+            With all complaints about the overrides.
         """
-        taken = [self._taken(override) for override in overrides]
-        chosen = tuple(one.line for one in taken if one.is_group)
-        if chosen not in self._composed:
-            config = self._loader.load_configuration("config", list(chosen), RunMode.RUN)
-            self._composed[chosen] = _rounded(_without_hydra(config))
-        # Plain dictionaries, of which only what changes is copied: there may be 20 000 of them.
-        values = dict(self._composed[chosen])
-        complaints = []
-        for one in taken:
-            if one.is_group:
-                continue
-            node: Any = values
-            for part in one.path:
-                if isinstance(inner := node.get(part), dict):
-                    node[part] = dict(inner)
-                node = node.get(part) if isinstance(inner, dict) else {}
-            if one.name in node:
-                node[one.name] = one.value
-            else:
-                complaints.append(_unknown(values, one))
-        if complaints:
-            raise ConfigurationError(complaints)
-        return values
-
-    def _take(self, text: str) -> _Taken:
-        override = self._parser.parse_override(text)
-        *path, name = override.key_or_group.split(".")
-        is_group = bool(self._options(override.key_or_group))
-        value = None if is_group else _rounded(override.value())
-        return _Taken(str(override.input_line), is_group, tuple(path), name, value)
+        (choice,) = self._grid(arguments, sweep=False)
+        return self._composition(choice)
 
     def launcher(self, overrides: list[str]) -> Launcher:
-        """The launcher that the configuration and the overrides name.
+        """The launcher that overrides choose and configure.
 
-        Raises ConfigurationError if it is not offered, or if a setting of it does not exist or is wrong.
+        Parameters
+        ----------
+        overrides : list of str
+            As `launcher_overrides` returns them.
+
+        Raises
+        ------
+        ConfigurationError
+            If there is no such launcher or no such setting of it, or if n_jobs is wrong.
         """
         for override in overrides:
             key, _, value = override.partition("=")
             if key == "hydra/launcher" and value not in LAUNCHERS:
-                raise ConfigurationError([f"{override}: there is {', '.join(LAUNCHERS)}"])
+                raise ConfigurationError([unknown("launcher", value, LAUNCHERS)])
         try:
             config = self._loader.load_configuration("config", overrides, RunMode.MULTIRUN)
         except HydraException as error:
@@ -240,51 +217,66 @@ class Session:
             settings_of(settings)
         return Launcher(name, settings)
 
+    def _grid(self, arguments: list[str], sweep: bool) -> list[tuple[str, ...]]:
+        """The points that overrides span, those of a launcher and of the search path taken out."""
+        places = [place for a in arguments if a.startswith(SEARCH_PATH) for place in searched(a)]
+        if places:
+            for place in places:
+                catalogue.add_settings(place)
+            GlobalHydra.instance().clear()
+            _hydra()
+            self._begin()
+        apart = {*launcher_overrides(arguments), *(a for a in arguments if a.startswith(SEARCH_PATH))}
+        overrides = self._grammar.parsed([a for a in arguments if a not in apart])
+        many = [o for o in overrides if o.is_sweep_override()]
+        if many and not sweep:
+            raise ConfigurationError(
+                [f"{o.input_line}: several values make a sweep: add -m" for o in many]
+            )
+        return grid(overrides)
 
-def launcher_overrides(arguments: list[str]) -> list[str]:
-    """Those arguments that choose or configure the launcher, not the runs."""
-    return [a for a in arguments if a.startswith(_LAUNCHER)]
+    def _composition(self, choice: tuple[str, ...]) -> dict[str, Any]:
+        """The plain dictionary of one point. Files are composed once per choice of groups; single values
+        are set on a copy.
+        """
+        try:
+            settings = [self._grammar.setting(override) for override in choice]
+            groups = tuple(one.line for one in settings if one.is_group)
+            if groups not in self._composed:
+                self._composed[groups] = self._files(list(groups))
+        except (HydraException, OmegaConfBaseException) as error:
+            raise ConfigurationError([f"{' '.join(choice)}: {str(error).splitlines()[0]}"]) from None
+        return applied(settings, self._composed[groups])
+
+    def _files(self, groups: list[str]) -> dict[str, Any]:
+        """What the files of a choice of groups say, with the protocol of scene, method and solver."""
+        config = self._loader.load_configuration("config", groups, RunMode.RUN)
+        names = [str(config.hydra.runtime.choices[group]) for group in _GROUPS]
+        plain = OmegaConf.to_container(
+            OmegaConf.create({key: config[key] for key in config if key != "hydra"}), resolve=True
+        )
+        values: Any = plain
+        for section in _LISTS:
+            values.pop(section, None)
+        if strange := values.keys() - {*SETTINGS, *(f.name for f in dataclasses.fields(RunConfig))}:
+            own = [*_GROUPS, "n", "h", "seed", "record", *_LISTS]
+            raise ConfigurationError([unknown(f"section of scene {names[0]}", s, own) for s in strange])
+        values["method"].pop("protocol", None)
+        values = catalogue.merged(values, catalogue.protocol(*names))
+        for group, name in zip(_GROUPS, names, strict=True):
+            values[group] = {**values[group], "name": name}
+        return rounded(values)
 
 
-@contextmanager
-def session() -> Iterator[Session]:
-    """A Session on the project's configuration folder."""
-    folder = str(catalogue.folder("conf").resolve())
-    with initialize_config_dir(folder, version_base="1.3", job_name="sphstudy"):
-        yield Session()
-
-
-def taken_execution(composed: dict[str, Any]) -> Execution:
-    """How a run is to be carried out, taken out of what Hydra composed.
-
-    Raises ConfigurationError with every complaint.
-    """
-    complaints: list[str] = []
-    values = {field.name: composed.pop(field.name) for field in dataclasses.fields(Execution)}
-    found = checked(Execution, values, "", complaints)
-    if complaints:
-        raise ConfigurationError(complaints)
-    return found
-
-
-def _shortened(text: str) -> str:
-    return text if len(text) <= 100 else f"{text[:100]}…"
-
-
-def _spanned(overrides: list[Override]) -> int:
-    """How many points overrides span, counted no further than too many."""
-    return math.prod(_values(o) for o in overrides if o.is_sweep_override())
-
-
-def _values(override: Override) -> int:
+def _validated(composed: dict[str, Any]) -> RunConfig:
     try:
-        return sum(1 for _ in itertools.islice(override.sweep_iterator(), MOST_POINTS + 1))
-    except (HydraException, ValueError, ArithmeticError):
-        return 0  # range() with steps of zero or ends that are none, glob() of what has no names
+        return validate(composed)
+    except ConfigurationError as error:
+        raise _NotValid(error.complaints) from None
 
 
 def _too_many(threads: int, config: RunConfig) -> str | None:
-    """What is wrong with so many threads for this run."""
+    """What is wrong with the number of threads of a run."""
     if threads == 1:
         return None
     if threads > (cores := os.cpu_count() or 1):
@@ -292,32 +284,3 @@ def _too_many(threads: int, config: RunConfig) -> str | None:
     if not solver_module(config.solve.name).THREADS:
         return f"threads={threads}: solver {config.solve.name} runs on one thread"
     return None
-
-
-def _without_hydra(config: DictConfig) -> dict[str, Any]:
-    """As plain dictionaries."""
-    own = OmegaConf.create({key: config[key] for key in config if key != "hydra"})
-    values: Any = OmegaConf.to_container(own, resolve=True)
-    return values
-
-
-def _rounded(values: Any) -> Any:
-    """Floats to 12 significant digits: range(1,2,0.1) must not make two coordinates of 1.9."""
-    if isinstance(values, dict):
-        return {key: _rounded(value) for key, value in values.items()}
-    if isinstance(values, list):
-        return [_rounded(value) for value in values]
-    return float(f"{values:.12g}") if isinstance(values, float) else values
-
-
-def _unknown(values: dict[str, Any], given: _Taken) -> str:
-    path, last = list(given.path), given.name
-    node: Any = values
-    for part in path:
-        node = node.get(part) if isinstance(node, dict) else None
-    if not isinstance(node, dict):
-        node, path, last = values, [], ".".join([*path, last])
-    names = sorted(str(name) for name in node)
-    close = difflib.get_close_matches(last, names, n=1, cutoff=0.5)
-    hint = f"did you mean {'.'.join([*path, close[0]])}?" if close else ""
-    return f"{given.line}: there is no such key; {hint or 'there are ' + ', '.join(names)}"

@@ -1,6 +1,10 @@
 """How a run is carried out, as far as that changes none of its numbers."""
 
-from sphstudy.parameters import count, number, parameters
+import dataclasses
+from typing import Any
+
+from sphstudy.errors import ConfigurationError
+from sphstudy.parameters import checked, count, number, parameters
 
 
 @parameters
@@ -19,3 +23,24 @@ SETTINGS = ("results", "retry", "checkpoint", "threads", "time_limit", "memory_l
 
 RETRIES = ("none", "failed", "timeout", "all")
 """What `retry` may be: which outcomes that are no results are tried again."""
+
+
+def taken(composed: dict[str, Any]) -> Execution:
+    """How a run is to be carried out, taken out of what was composed.
+
+    Parameters
+    ----------
+    composed : dict
+        Settings of a point; those of Execution are removed.
+
+    Raises
+    ------
+    ConfigurationError
+        With every complaint.
+    """
+    complaints: list[str] = []
+    values = {field.name: composed.pop(field.name) for field in dataclasses.fields(Execution)}
+    found = checked(Execution, values, "", complaints)
+    if complaints:
+        raise ConfigurationError(complaints)
+    return found

@@ -9,7 +9,8 @@ from sphstudy.analysis import dataset as collect
 from sphstudy.commands import review
 from sphstudy.commands.points_table import print_tables
 from sphstudy.configuration import study_file
-from sphstudy.configuration.composition import Point, Session, launcher_overrides, session
+from sphstudy.configuration.composition import Point, Session, session
+from sphstudy.configuration.overrides import launcher_overrides
 from sphstudy.configuration.study_points import all_points
 from sphstudy.errors import ConfigurationError
 from sphstudy.running.launching import Launching, workers_of

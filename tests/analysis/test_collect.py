@@ -50,7 +50,7 @@ def test_points_without_a_record_are_missing_not_absent(configs_of, tmp_path):
 
 def test_a_sparse_study_is_a_list_of_points(configs_of, tmp_path):
     base = ["scene=plate", "n=5"]
-    options = ["method.xsph=0.4", "scene.nu=0.2", "scene.columns=spacing", "solve.damping=0.1"]
+    options = ["method.xsph=0.4", "scene.nu=0.2", "scene.columns=spacing", "method.damping=0.1"]
     options += ["scene.E=2e6", "scene.H0=0.01", "method.skin=0.2"]
     configs = configs_of(*base) + [config for o in options for config in configs_of(*base, o)]
     dataset, path = collect.collect(configs, Store(tmp_path))

@@ -18,7 +18,7 @@ TOTAL = {"scene": "mode2", "method": "tl", "n": 16, "solve.load_steps": 100, "so
 
 OPTIONS = [
     (TOTAL, {"method.hourglass": 0.5}),
-    (TOTAL, {"solve.damping": 100.0}),
+    (TOTAL, {"method.damping": 100.0}),
     (TOTAL, {"solve.courant": 0.4}),
     (TOTAL, {"solve.time_step": "frequency"}),
     ({**TOTAL, "solve.time_step": "frequency"}, {"solve.safety": 0.5}),
@@ -30,8 +30,8 @@ OPTIONS = [
     (CRACK, {"method.viscosity_linear": 0.5}),
     (CRACK, {"method.viscosity_quadratic": 1.0}),
     (CRACK, {"method.xsph": 0.4}),
-    (CRACK, {"solve.damping": 0.5}),
-    (CRACK, {"solve.smoothing": 0.5}),
+    (CRACK, {"method.damping": 0.5}),
+    (CRACK, {"method.smoothing": 0.5}),
     (CRACK, {"solve.courant": 0.08}),
     (CRACK, {"solve.load_time": 0.1}),
     (CRACK, {"solve.settle_ratio": 0.9}),
@@ -50,7 +50,7 @@ SLOW_OPTIONS = [
     ({**TOTAL, "method.viscosity_linear": 1.0, "solve.courant": 0.3}, {"solve.integrator": "heun"}),
     (CRACK, {"method.retest_visibility": False}),
     (CRACK, {"method.artificial_stress": 0.0}),
-    (CRACK, {"solve.smoothing": 0.0, "solve.damping": 0.0}),
+    (CRACK, {"method.smoothing": 0.0, "method.damping": 0.0}),
     (PLATE, {"method.xsph": 0.0}),
 ]
 

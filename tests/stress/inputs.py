@@ -20,9 +20,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import sphstudy
+from sphstudy import catalogue
 from sphstudy.__main__ import main
 from sphstudy.catalogue import scene_module
-from sphstudy.configuration import study_file
 from sphstudy.configuration.composition import session
 from sphstudy.configuration.run_settings import validate
 from sphstudy.running import sweep
@@ -52,18 +52,18 @@ def _stop(hydra, points, store, launcher, force=False, name=None):
 @contextlib.contextmanager
 def place():
     """An empty folder to work in, where nothing really runs; studies are read from its `studies`."""
-    before, run, folder = Path.cwd(), sweep.sweep, study_file.folder
+    before, run, folder = Path.cwd(), sweep.sweep, catalogue.FOLDERS["studies"]
     with tempfile.TemporaryDirectory() as name:
         inner = Path(name, "a", "b")
         (inner / "studies").mkdir(parents=True)
         os.environ[POISON] = "poison"
-        sweep.sweep, study_file.folder = _stop, lambda: inner / "studies"
+        sweep.sweep, catalogue.FOLDERS["studies"] = _stop, inner / "studies"
         os.chdir(inner)
         try:
             yield inner
         finally:
             os.chdir(before)
-            sweep.sweep, study_file.folder = run, folder
+            sweep.sweep, catalogue.FOLDERS["studies"] = run, folder
             del os.environ[POISON]
 
 

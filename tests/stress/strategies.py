@@ -16,7 +16,7 @@ KEYS = (
     "time_limit", "memory_limit", "known", "scene.name", "scene.kind", "scene.E", "scene.nu", "scene.L",
     "scene.H0", "scene.periods", "scene.columns", "scene.slenderness", "scene.plane", "method.name",
     "method.kind", "method.kernel", "method.law", "method.hourglass", "solve.name", "solve.courant",
-    "solve.damping", "solve.integrator", "record.samples", "record.times", "record.frames", "protocol",
+    "method.damping", "solve.integrator", "record.samples", "record.times", "record.frames", "protocol",
     "hydra/launcher", "hydra.launcher.n_jobs", "hydra.run.dir", "hydra.launcher._target_", "hydra",
     "scene._target_", "_target_", "record._target_", "method.viscosity_linear", "hydra/sweeper",
 )  # fmt: skip

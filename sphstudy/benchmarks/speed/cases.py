@@ -18,8 +18,8 @@ THESIS_TERMS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "XSPH": (("method.xsph=0",), ("xsph",)),
     "viscosity": (("method.viscosity_linear=0", "method.viscosity_quadratic=0"), ("viscosity",)),
     "artificial stress": (("method.artificial_stress=0",), ("artificial",)),
-    "damping": (("solve.damping=0",), ("damping",)),
-    "smearing": (("solve.smoothing=0",), ("smoothing",)),
+    "damping": (("method.damping=0",), ("damping",)),
+    "smearing": (("method.smoothing=0",), ("smoothing",)),
     "crack": ((), ("crack",)),
 }
 """Terms of the thesis's method: settings that switch one off, and its field of the model."""
@@ -27,7 +27,7 @@ THESIS_TERMS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 TL_TERMS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "hourglass": (("method.hourglass=0",), ("hourglass",)),
     "viscosity": (("method.viscosity_linear=0",), ("viscosity",)),
-    "damping": (("solve.damping=0",), ("damping",)),
+    "damping": (("method.damping=0",), ("damping",)),
 }
 """Terms of the total Lagrangian method."""
 

@@ -67,6 +67,7 @@ class Parameters:
     hourglass: float = number("ζ of the hourglass energy; 0 leaves zero-energy modes", ge=0)
     viscosity_linear: float = number("α of the artificial viscosity (2.21)", ge=0)
     viscosity_quadratic: float = number("β of the artificial viscosity (2.21)", ge=0)
+    damping: float = number("velocity damping γ (2.23)", "1/s", ge=0)
     contact_stiffness: float = number(
         "κ of the contact between surfaces, f = 3κ(λ + 2µ) d0 (1 - r/d0)²; 0: they pass through", ge=0
     )
@@ -142,7 +143,7 @@ def model(problem: Problem, config, crack_nodes: int) -> Model:
         hourglass=method.hourglass,
         crack=crack,
         viscous=Viscosity(method.viscosity_linear, method.viscosity_quadratic) if viscous else None,
-        damping=getattr(config.solve, "damping", 0.0),
+        damping=method.damping,
         wave_speed=body.material.wave_speed,
         part=body.part,
         surfaces=surfaces,

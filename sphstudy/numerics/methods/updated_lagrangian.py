@@ -52,6 +52,8 @@ class Parameters:
     viscosity_quadratic: float = number("β of the artificial viscosity (2.21)", ge=0)
     artificial_stress: float = number("ζ of the artificial stress (2.25); 0: off", ge=0, le=1)
     artificial_exponent: int = count("exponent n of f_ij in (2.24)", ge=0, le=15)
+    damping: float = number("velocity damping γ (2.23)", "1/s", ge=0)
+    smoothing: float = number("smearing of the velocity η (2.26)", ge=0, le=1)
     spin: Literal["none", "jaumann"] = described(
         "does the stress turn with the body: not in the thesis, or by Jaumann's rate"
     )
@@ -135,7 +137,7 @@ def model(problem: Problem, config, crack_nodes: int) -> Model:
         if method.artificial_stress > 0.0
         else None,
         spin=True if method.spin == "jaumann" else None,
-        damping=config.solve.damping or None,
-        smoothing=config.solve.smoothing or None,
+        damping=method.damping or None,
+        smoothing=method.smoothing or None,
         crack=_crack(config, problem, crack_nodes),
     )

@@ -33,8 +33,6 @@ class Parameters:
     )
     courant: float = number("C of the time step Δt = C Δ/c0 (2.27)", gt=0)
     safety: float = number("Δt over 2/ω_max, its limit without damping", gt=0, lt=1)
-    damping: float = number("velocity damping γ (2.23)", "1/s", ge=0)
-    smoothing: float = number("smearing of the velocity η (2.26)", ge=0, le=1)
     load_steps: int = count("loading steps N (3.4)", ge=1)
     load_time: float | None = number("loading time; replaces load_steps if given", "s", gt=0)
     settle_steps: int = count("steps after loading", ge=1)
@@ -90,13 +88,11 @@ def integrator(config, method) -> str:
 
 
 def not_offered(config, method) -> Iterator[str]:
-    """Complaints about an integrator or a smearing of velocities that the method does not have."""
+    """Complaints about an integrator that the method does not have."""
     solve, name = config.solve, config.method.name
     if integrator(config, method) not in method.INTEGRATORS:
         offered = ", ".join(method.INTEGRATORS)
         yield f"solve.integrator={solve.integrator}: method {name} takes {offered}"
-    if solve.smoothing and not hasattr(config.method, "xsph"):
-        yield f"solve.smoothing={solve.smoothing:g}: method {name} has no smoothed velocity; take 0"
 
 
 def check(problem: Problem, config, method) -> Iterator[str]:

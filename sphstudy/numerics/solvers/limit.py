@@ -56,8 +56,6 @@ class Parameters:
     highest_courant: float = number("C of the longest step tried", gt=0)
     tolerance: float = number("ratio of the steps that enclose the limit, less 1", gt=1e-4, lt=1)
     steps: int = count("steps of a trial that does not blow up before", ge=100)
-    damping: float = number("velocity damping γ (2.23)", "1/s", ge=0)
-    smoothing: float = number("smearing of the velocity η (2.26)", ge=0, le=1)
 
 
 def check(problem: Problem, config, method) -> Iterator[str]:

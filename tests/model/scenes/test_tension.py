@@ -76,7 +76,7 @@ def test_resolution_and_strain_are_looked_at(setting, complaint):
         configured("scene=tension", setting)
 
 
-UNDAMPED = {"method": "thesis", "solve.damping": 0.0}
+UNDAMPED = {"method": "thesis", "method.damping": 0.0}
 """Damping hardly matters to what clumps; without it the compiled code is that of the vibrating plate."""
 
 

@@ -159,7 +159,6 @@ def test_buckling_is_an_unstable_state_not_an_answer():
         (["scene=plate", "solve=modes", "solve.count=1000", "n=3", "h=1.3"], "that can be found"),
         (["scene=mode1", "solve=equilibrium", "record.times=[1.0]"], "knows no time"),
         (["scene=mode1", "solve=equilibrium", "record.frames=3"], "record.frames=3: solve=equilibrium"),
-        (["scene=mode1", "solve.smoothing=0.5"], "no smoothed velocity"),
         (["scene=mode1", "method=thesis", "solve.time_step=frequency"], "take courant"),
         (["scene=mode1", "method=thesis", "solve.integrator=verlet"], "method thesis takes heun"),
     ],
@@ -170,6 +169,13 @@ def test_what_does_not_fit_is_refused_by_name(settings, said):
         (point,), _ = hydra.points([*method, *settings], sweep=False)
     complaints = prospect(point.config)[1]
     assert any(said in complaint for complaint in complaints)
+
+
+@pytest.mark.parametrize("solve", ["explicit", "equilibrium", "limit"])
+def test_a_method_without_smoothed_velocity_smears_none(solve):
+    refused = pytest.raises(ConfigurationError, match=r"method\.smoothing")
+    with session() as hydra, refused:
+        hydra.points(["method=tl", f"solve={solve}", "method.smoothing=0.5"], sweep=False)
 
 
 def test_the_thesis_has_no_potential_to_solve():

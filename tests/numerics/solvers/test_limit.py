@@ -182,7 +182,6 @@ def test_no_limit_between_the_bounds_is_a_result_that_says_so(settings, message)
     ("settings", "said"),
     [
         (("method=thesis", "solve.integrator=verlet"), "method thesis takes heun"),
-        (("method=tl", "solve.smoothing=0.5"), "no smoothed velocity"),
         (("method=tl", "solve.lowest_courant=5"), "should be below solve.highest_courant=4"),
         (("method=tl", "record.times=[1.0]"), "knows no time"),
     ],

@@ -58,8 +58,8 @@ class Sweep:
         self.store.prepare()
         monkeypatch.setitem(sys.modules, "submitit", fake.submitit)
         for name in ("states", "cancel"):
-            monkeypatch.setattr(jobs.slurm, name, getattr(fake, name))
-        monkeypatch.setattr(jobs.slurm, "remembered", lambda job: State(UNKNOWN))
+            monkeypatch.setattr(jobs.queries, name, getattr(fake, name))
+        monkeypatch.setattr(jobs.queries, "remembered", lambda job: State(UNKNOWN))
         self.jobs = [(p.config.as_dict(), str(folder), p.execution) for p in points]
         self.calls, self.lost = [], {}
         self.slurm = Slurm({**SETTINGS, **settings}, self.store.folder)
@@ -210,14 +210,14 @@ def test_want_of_memory_is_told_where_the_state_does_not_tell_it(sweep):
 def test_a_controller_that_does_not_answer_is_asked_again(sweep, monkeypatch, capsys):
     one = sweep(FakeCluster())
     answers = iter([None, None])
-    monkeypatch.setattr(jobs.slurm, "states", lambda name: next(answers, one.fake.states(name)))
+    monkeypatch.setattr(jobs.queries, "states", lambda name: next(answers, one.fake.states(name)))
     assert one.run() == {}
     assert capsys.readouterr().err.count("does not answer") == 1
 
 
 def test_a_forgotten_job_has_failed_unless_its_records_are_there(sweep, monkeypatch):
     one = sweep(FakeCluster(ends=[(1, KILLED), (0, KILLED)]))
-    monkeypatch.setattr(jobs.slurm, "states", lambda name: {})
+    monkeypatch.setattr(jobs.queries, "states", lambda name: {})
     assert one.run() == {1: ("failed", "SLURM job 1_1: UNKNOWN")}
 
 

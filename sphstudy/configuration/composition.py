@@ -37,7 +37,7 @@ LAUNCHERS = ("local", "basic", "slurm")
 """Side by side on this machine, one after the other in this process, jobs of a SLURM cluster."""
 
 _GROUPS = ("scene", "method", "solve")
-SECTIONS = ("metrics", "headline", "protocol", "source", "bounds", "quoted")
+SECTIONS = ("title", "metrics", "headline", "protocol", "source", "bounds", "quoted")
 """Sections of a scene's file that are no settings of a run: the catalogue reads them."""
 
 

@@ -2,7 +2,6 @@
 
 from typing import Literal, get_args, get_origin
 
-import yaml
 from pydantic.fields import FieldInfo
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
@@ -19,14 +18,11 @@ _NAME = 16
 
 
 def _settings(group: str, name: str) -> dict:
-    path = catalogue.folder("conf") / group / f"{name}.yaml"
-    if not path.is_file():
-        raise ConfigurationError([f"{group}={name}: there is {', '.join(_names(group))}"])
-    return yaml.safe_load(path.read_text())
+    return catalogue.settings(group, name)
 
 
 def _names(group: str) -> list[str]:
-    return sorted(path.stem for path in (catalogue.folder("conf") / group).glob("*.yaml"))
+    return catalogue.names(group)
 
 
 def _first_line(module) -> str:
@@ -36,7 +32,7 @@ def _first_line(module) -> str:
 def _module(group: str, name: str):
     settings = _settings(group, name)
     settings = settings.get(group, settings)
-    return _GROUPS[group](settings["name" if group == "solve" else "kind"])
+    return _GROUPS[group](name if group == "solve" else settings["kind"])
 
 
 def list_command(arguments: list[str]) -> int:
@@ -48,7 +44,7 @@ def list_command(arguments: list[str]) -> int:
         for name in _names(group):
             print(f"  {name:{_NAME}s} {_first_line(_module(group, name))}")
     print("metrics:")
-    modules = {m: None for name in _names("scene") for m in _module("scene", name).METRICS}
+    modules = {m: None for name in _names("scene") for m in catalogue.metrics(name)}
     for name in modules:
         module = catalogue.module("metrics", name)
         print(f"  {name:{_NAME}s} {_first_line(module)}")

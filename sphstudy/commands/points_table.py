@@ -21,7 +21,7 @@ def print_tables(dataset: xr.Dataset) -> None:
     points = int((dataset["configuration"] != "").sum())
     listed = cells(dataset, without="done" if points > LONGEST else "")
     for cell in listed[:LONGEST]:
-        shown_first = headline(cell.flat["scene.kind"], cell.flat["solve"])
+        shown_first = headline(cell.flat["scene"], cell.flat["solve"])
         groups.setdefault((cell.flat["scene"], shown_first), []).append(cell)
     for (_, shown_first), found in groups.items():
         _print_table(dataset, found, shown_first)

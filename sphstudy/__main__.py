@@ -32,6 +32,7 @@ sphstudy - batch studies with smoothed particle hydrodynamics of elastic solids 
   sphstudy status                                  what the results folder holds, run by run
   sphstudy status mode1                            how far a study is, how fast, and what is left
   sphstudy prune                                   stale records and their space; --yes removes them
+  sphstudy adopt                                   stored runs of an earlier version serve again
   sphstudy list                                    scenes, methods, solvers, metrics, studies
   sphstudy describe scene plate                    every setting of one of them: value, unit, meaning
 
@@ -81,6 +82,7 @@ _COMMANDS = {
     "judge": "judge",
     "extrapolate": "extrapolate",
     "advise": "advise",
+    "adopt": "adopt",
     "peers": "peers",
 }
 """Where `<command>_command` of each is, imported when it is asked for."""

@@ -6,7 +6,9 @@ import xarray as xr
 
 from sphstudy.configuration.composition import session
 from sphstudy.running import sweep as batch
-from sphstudy.store.store import Store, read_dataset
+from sphstudy.store.measured import up_to_date
+from sphstudy.store.netcdf import read_dataset
+from sphstudy.store.store import Store
 
 
 def run(**settings: Any) -> xr.Dataset:
@@ -19,10 +21,11 @@ def run(**settings: Any) -> xr.Dataset:
         points, folder = hydra.points(_overrides(settings, swept=False), sweep=False)
         store = Store(folder)
         batch.sweep(hydra, points, store, launcher=[])
-        record = store.read(points[0].config)
+        config = points[0].config
+        record = store.read(config)
     if record is None:
-        raise RuntimeError(f"the record of {points[0].config.label} is not there")
-    return record
+        raise RuntimeError(f"the record of {config.label} is not there")
+    return up_to_date(record, config)
 
 
 def sweep(**settings: Any) -> xr.Dataset:

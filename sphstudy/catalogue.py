@@ -140,8 +140,8 @@ def settings(group: str, name: str) -> dict[str, Any]:
     Returns
     -------
     dict
-        Nested settings, which callers must not change. A quantity's bound replaces the parent's as a
-        whole.
+        Nested settings, which callers must not change, the name of the file among them. A quantity's
+        bound replaces the parent's as a whole.
 
     Raises
     ------
@@ -167,7 +167,8 @@ def _settings(
         above = own if parent == "_self_" else _settings(group, parent, folders, (name, *heirs))
         bounds = {**found.get("bounds", {}), **above.get("bounds", {})}
         found = merged(found, above) | ({"bounds": bounds} if bounds else {})
-    return found
+    # A scene's file speaks of other parts of the configuration too: its own are below `scene`.
+    return merged(found, {group: {"name": name}} if group in found else {"name": name})
 
 
 def read(path: Path) -> dict[str, Any]:

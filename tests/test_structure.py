@@ -28,13 +28,10 @@ LONGEST = 300
 
 KNOWN: set[str] = {
     "commands <-> running",
-    "configuration <-> running/slurm",
-    "configuration/composition -> running/slurm/settings",
     "model/constraints -> numerics/compilation",
     "numerics/solvers/equilibrium -> configuration/run_settings",
     "numerics/solvers/limit -> configuration/run_settings",
     "numerics/solvers/modes -> configuration/run_settings",
-    "running <-> running/slurm",
     "running/sweep -> commands/points_table",
     "running/sweep -> commands/review",
 }

@@ -20,7 +20,8 @@ from sphstudy.configuration import study_file
 from sphstudy.configuration.composition import Session, session
 from sphstudy.console import console
 from sphstudy.errors import ConfigurationError
-from sphstudy.store.store import Store, read_dataset
+from sphstudy.store.netcdf import read_dataset
+from sphstudy.store.store import Store
 from sphstudy.text import number, setting
 
 _FILTERS = ("method", "solve")

@@ -14,7 +14,7 @@ from sphstudy.analysis.richardson import ORDERS
 from sphstudy.configuration import study_file
 from sphstudy.console import console
 from sphstudy.errors import ConfigurationError
-from sphstudy.store.store import read_dataset, write
+from sphstudy.store.netcdf import read_dataset, write
 
 _OPTIONS = ("--order", "--output", "results")
 _USAGE = "extrapolate STUDY|FILE.nc METRIC … [--order P] [--output FILE.nc] [results=FOLDER]"

@@ -11,7 +11,7 @@ from sphstudy.benchmarks.peers.launch import Outcome, launch
 from sphstudy.benchmarks.peers.measure import Case
 from sphstudy.benchmarks.peers.plate import plate
 from sphstudy.errors import ConfigurationError
-from sphstudy.store.store import write
+from sphstudy.store.netcdf import write
 
 _OPTIONS = ("peers", "n", "repeats", "results")
 

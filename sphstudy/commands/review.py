@@ -9,8 +9,7 @@ from pathlib import Path
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
-from sphstudy.analysis import compare, reference
-from sphstudy.analysis import dataset as collect
+from sphstudy.analysis import compare, dataset, reference
 from sphstudy.analysis.claims import claim
 from sphstudy.analysis.compare import MISSING, OUTSIDE, Comparison
 from sphstudy.analysis.results import load
@@ -23,8 +22,9 @@ from sphstudy.configuration.study_points import all_points
 from sphstudy.console import console
 from sphstudy.errors import ConfigurationError
 from sphstudy.store.measured import measured
+from sphstudy.store.netcdf import read_dataset
 from sphstudy.store.record import STATUS
-from sphstudy.store.store import Store, read_dataset
+from sphstudy.store.store import Store
 
 SHOWN = 20
 """Rows of a comparison that are printed unless all are asked for."""
@@ -98,8 +98,9 @@ def measure_command(arguments: list[str]) -> int:
                 store.keep(point.config, measured(run, point.config))
                 count += 1
         configs = [point.config for point in points]
-        dataset, path = collect.collect(configs, store, report_name(name, overrides))
-    print_tables(dataset)
+        combined = dataset.combine(configs, store, name)
+        path = dataset.write(combined, configs, store, report_name(name, overrides))
+    print_tables(combined)
     print(f"{count} of {len(points)} points measured again\ndataset: {path}")
     return 0
 
@@ -110,8 +111,8 @@ def reference_command(arguments: list[str]) -> int:
     if any(not o.startswith("results=") for o in overrides):
         raise ConfigurationError(["reference: takes a study as it is, and results=FOLDER"])
     with session() as hydra:
-        for path in reference.make(hydra, name, _folder(hydra, name, overrides)):
-            print(f"reference: {path}")
+        for member, made in reference.make(hydra, name, _folder(hydra, name, overrides)).items():
+            print(f"reference: {reference.write(made, member)}")
     return 0
 
 

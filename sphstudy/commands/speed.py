@@ -26,7 +26,8 @@ def speed_command(overrides: list[str], dry_run: bool) -> int:
     from sphstudy.benchmarks.speed.measurements import measure
     from sphstudy.benchmarks.speed.tables import print_tables
     from sphstudy.configuration.composition import session
-    from sphstudy.store.store import Store, write
+    from sphstudy.store.netcdf import write
+    from sphstudy.store.store import Store
 
     Store(settings.results).prepare()
     with session() as hydra:
@@ -49,7 +50,7 @@ def _print_plan(settings: Settings, path: Path) -> None:
 
 def _before(path: Path) -> dict[str, str]:
     """What each part took when it was measured last."""
-    from sphstudy.store.store import read_dataset
+    from sphstudy.store.netcdf import read_dataset
 
     if not path.is_file():
         return {}

@@ -17,7 +17,7 @@ from sphstudy.errors import ConfigurationError
 from sphstudy.running.plan import plan
 from sphstudy.running.progress import duration
 from sphstudy.store.lock import Holder, holder, is_alive
-from sphstudy.store.store import CHECKPOINT, CLAIM, Store
+from sphstudy.store.store import CHECKPOINT, CLAIM, Store, read_summary
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,6 @@ def _of_folder(arguments: list[str]) -> list[Line]:
         Line(path.stem, "unreadable", float("nan"), "set aside; the run is done again when asked for")
         for path in sorted(store.runs.glob("*.unreadable"))
     ]
-    store.index.flush()
     return lines
 
 
@@ -85,7 +84,7 @@ def _line(store: Store, stem: Path, claimed: bool, kept: bool) -> Line | None:
     """A run with a claim, a checkpoint, or a record; None if it has none of them that can be read."""
     claim = stem.with_name(stem.name + CLAIM)
     alive = claimed and is_alive(claim)
-    if not alive and (summary := store.summary_at(stem.with_name(stem.name + ".nc"))):
+    if not alive and (summary := read_summary(stem.with_name(stem.name + ".nc"))):
         # A claim that is lost beside a record: its process was killed when all was done.
         seconds = summary.numbers.get("cpu_seconds", float("nan"))
         return Line(stem.name, summary.status, seconds, summary.attributes["message"])
@@ -111,7 +110,6 @@ def _of_study(name: str, overrides: list[str]) -> tuple[list[Line], str]:
         store = Store(folder)
         planned = plan(points, store)
         lines = [_of_point(store, p.point.config, p.status) for p in planned]
-    store.index.flush()
     return lines, "\n".join(_pace(store, planned))
 
 

@@ -16,7 +16,7 @@ from sphstudy.console import console
 from sphstudy.errors import ConfigurationError
 from sphstudy.running.progress import duration
 from sphstudy.store import identity
-from sphstudy.store.store import REUSED, Store
+from sphstudy.store.store import REUSED, Store, read_summary
 
 TRIED_AGAIN = {
     "none": (),
@@ -112,7 +112,7 @@ def _older_records(planned: list[Planned], store: Store) -> dict[int, str]:
     found: dict[int, str] = {}
     for path in store.runs.glob("*.nc"):
         label = path.stem.rpartition("-")[0]
-        if label not in wanted or (summary := store.summary_at(path)) is None:
+        if label not in wanted or (summary := read_summary(path)) is None:
             continue
         p = wanted[label]
         reason = difference(summary.attributes, p.point)

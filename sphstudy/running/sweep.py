@@ -5,7 +5,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from sphstudy.analysis import dataset as collect
+from sphstudy.analysis import dataset
 from sphstudy.commands import review
 from sphstudy.commands.points_table import print_tables
 from sphstudy.configuration import study_file
@@ -29,8 +29,8 @@ def run_command(arguments: list[str], many: bool, force: bool) -> int:
     """
     with session() as hydra:
         points, folder = hydra.points(arguments, many)
-        dataset, path = sweep(hydra, points, Store(folder), launcher_overrides(arguments), force)
-    return _report(dataset, path)
+        combined, path = sweep(hydra, points, Store(folder), launcher_overrides(arguments), force)
+    return _report(combined, path)
 
 
 def study_command(arguments: list[str], force: bool, dry_run: bool) -> int:
@@ -55,11 +55,11 @@ def study_command(arguments: list[str], force: bool, dry_run: bool) -> int:
             print_plan(plan(points, store, force), store, workers)
             return 0
         called = review.report_name(name, settings)
-        dataset, path = sweep(hydra, points, store, launcher_overrides(overrides), force, called)
-        status = _report(dataset, path)
+        combined, path = sweep(hydra, points, store, launcher_overrides(overrides), force, called)
+        status = _report(combined, path)
         if (
             study_file.load(name).forbid_diverged
-            and (dataset["status"] == STATUS.index("diverged")).any()
+            and (combined["status"] == STATUS.index("diverged")).any()
         ):
             print("a point diverged, which this study forbids")
             status = 1
@@ -84,7 +84,7 @@ def sweep(
         print(said, file=sys.stderr)
     pending = [p for p in planned if p.runs]
     pending.sort(key=lambda p: p.seconds, reverse=True)
-    launching = Launching(store, pending, hydra.launcher(launcher))
+    launching = Launching(store, [p.point for p in pending], hydra.launcher(launcher))
     for p in pending if force else ():
         store.checkpoint_path(p.point.config).unlink(missing_ok=True)
     if pending:
@@ -92,18 +92,20 @@ def sweep(
         costs = [(p.point.config, p.seconds) for p in pending]
         with display(costs, store, reused=len(planned) - len(pending)):
             launching.run()
-    elsewhere = [p for p in planned if p.status == "running"]
+    elsewhere = [p.point for p in planned if p.status == "running"]
     if elsewhere:
         launching.wait_for(elsewhere)
-    return collect.collect([p.config for p in points], store, name)
+    configs = [p.config for p in points]
+    combined = dataset.combine(configs, store)
+    return combined, dataset.write(combined, configs, store, name)
 
 
-def _report(dataset: xr.Dataset, path: Path) -> int:
-    print_tables(dataset)
+def _report(combined: xr.Dataset, path: Path) -> int:
+    print_tables(combined)
     print(f"dataset: {path}")
-    bad = {name: int((dataset["status"] == STATUS.index(name)).sum()) for name in ("failed", "timeout")}
-    there = dataset["configuration"] != ""
-    without = int((there & dataset["status"].isin([STATUS.index(name) for name in _UNDONE])).sum())
+    bad = {name: int((combined["status"] == STATUS.index(name)).sum()) for name in ("failed", "timeout")}
+    there = combined["configuration"] != ""
+    without = int((there & combined["status"].isin([STATUS.index(name) for name in _UNDONE])).sum())
     for name, count in bad.items():
         if count:
             print(f"{count} {name}: the .log beside each record says more; retry={name} tries again")

@@ -6,8 +6,8 @@ import xarray as xr
 
 from sphstudy.__main__ import main
 from sphstudy.commands.extrapolate import with_uncertainty
+from sphstudy.store.netcdf import write
 from sphstudy.store.record import STATUS
-from sphstudy.store.store import write
 from tests.analysis.test_extrapolation import swept
 
 

@@ -99,7 +99,7 @@ WRONG = [
     (["memory_limit=x"], "memory_limit=x: should be a valid number"),
     (["retry=often"], "unknown retry 'often'; there are none, failed, timeout, all"),
     (["scene.name=mine"], "scene.name=mine: the name is that of the file; scene=NAME chooses another"),
-    (["known=1"], "known=1: set by the program itself"),
+    (["known=1"], "known=1: unknown setting 'known'"),
     (["h=25"], "the support is wider than the body"),
 ]
 
@@ -149,7 +149,7 @@ def test_the_catalogue_inherits_as_hydra_does(hydra, scene):
 
     config = hydra._loader.load_configuration("config", [f"scene={scene}"], RunMode.RUN)
     whole, found = OmegaConf.to_container(config), dict(catalogue.settings("scene", scene))
-    record = found.pop("record", {})
+    record, whole["scene"]["name"] = found.pop("record", {}), scene
     assert whole["record"] == {**whole["record"], **record}
     assert {key: whole[key] for key in found} == found
 

@@ -9,7 +9,8 @@ import pandas as pd
 from sphstudy import catalogue
 from sphstudy.analysis.results import Results, load
 from sphstudy.configuration import study_file
-from sphstudy.store.store import Store, write
+from sphstudy.store.netcdf import write
+from sphstudy.store.store import Store
 
 COLUMNS = (
     "study", "block", "varied", "h", "n", "scene", "scene.H0", "scene.K", "method.kernel",

@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from sphstudy import catalogue, text
-from sphstudy.analysis.dataset import hashable
+from sphstudy.analysis.dimensions import hashable
 from sphstudy.analysis.results import Results
 from sphstudy.analysis.stability.bounds import Bound, for_point
 from sphstudy.analysis.stability.judge import Judgement, judge

@@ -6,7 +6,7 @@ from sphstudy.__main__ import main
 from sphstudy.benchmarks.speed import measurements as parts
 from sphstudy.benchmarks.speed.settings import PARTS, parsed
 from sphstudy.errors import ConfigurationError
-from sphstudy.store.store import read_dataset
+from sphstudy.store.netcdf import read_dataset
 from tests.benchmarks.speed.synthetic import measurements
 
 

@@ -170,7 +170,7 @@ def test_a_figure_that_cannot_be_drawn_says_why_and_leaves_no_old_one(read, fold
     assert "because data are missing: no point with n=99 Figure 9.1. A lacking figure." in shown(read)
     assert "because of an error: ZeroDivisionError: <b>by nothing</b>" in shown(read)
     assert "because of an error: ValueError" in shown(read)
-    assert "unknown figure 'made_up.unheard_of'; did you mean 'made_up.unwritable'?" in shown(read)
+    assert "unknown figure 'made_up.unheard_of'; " in shown(read)
     assert not (folder / "report" / "figures" / "made_up.lacking.png").exists()
 
 

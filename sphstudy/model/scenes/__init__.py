@@ -12,6 +12,6 @@ A module has
 `build(config)`
     the Problem.
 
-`config` is the RunConfig of a run. Which metrics a scene is measured by, what tables show of it, how it is
-run by each method and solver, and what a sound run of it keeps stand in the file too.
+`config` is the RunConfig of a run. The file says beside that which metrics measure the scene, what tables
+show of it, which settings it asks for with each method and solver, and what a sound run of it keeps.
 """

@@ -19,6 +19,8 @@ from pathlib import Path
 
 import psutil
 
+from sphstudy.store.atomic import replacing
+
 ELSEWHERE = "elsewhere"
 """What a worker answers instead of an outcome if another process computes the run."""
 
@@ -66,8 +68,17 @@ class Claim:
         self._over = threading.Event()
 
     def take(self) -> bool:
-        """Takes the run unless a living process has it; whether that worked. Raises OSError if the
-        claim cannot be written: without it, others would compute the run too.
+        """Takes the run unless a living process has it.
+
+        Returns
+        -------
+        bool
+            Whether the run is ours.
+
+        Raises
+        ------
+        OSError
+            If the claim cannot be written: without it, others would compute the run too.
         """
         self.path.parent.mkdir(parents=True, exist_ok=True)
         with _locked(self.path.parent):
@@ -94,13 +105,8 @@ class Claim:
         self._written = time.monotonic()
         me = os.getpid()
         note = Holder(step, steps, me, platform.node(), self._started, _born(me))
-        temporary = self.path.with_suffix(f".{me}.tmp")
-        try:
+        with replacing(self.path, durable=False) as temporary:
             temporary.write_text(json.dumps(asdict(note)))
-            os.replace(temporary, self.path)
-        except OSError:
-            temporary.unlink(missing_ok=True)
-            raise
 
     def _beat(self) -> None:
         while not self._over.wait(HEARTBEAT):

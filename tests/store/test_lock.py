@@ -151,7 +151,7 @@ def test_a_claim_that_cannot_be_written_is_not_taken(path, monkeypatch):
     def full(*arguments):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(lock.os, "replace", full)
+    monkeypatch.setattr(os, "replace", full)
     with pytest.raises(OSError, match="No space"):
         Claim(path).take()
-    assert list(path.parent.glob("*.tmp")) == []
+    assert [file.name for file in path.parent.iterdir()] == [".claims"]

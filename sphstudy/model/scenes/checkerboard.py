@@ -1,9 +1,9 @@
 """Square driven, particle by particle, into a checkerboard: u_x = ±a, alternating along rows and columns.
 
-The shortest wave that a lattice carries, and the one that centred sums over neighbours do not see: what
-force brings the particles back? All of them are driven, slowly, so that the power of the constraints is
-that of the restoring forces, and nothing can run away. The pattern fades out towards the surface: there
-neighbours are missing, and the forces would be those of another lattice.
+This is the shortest wave that a lattice carries, and centred sums over neighbours do not see it: which
+force brings the particles back? All of them are driven, slowly: the power of the constraints is then that
+of the restoring forces, and nothing can run away. The pattern fades out towards the surface, where
+neighbours are missing and the forces would be those of another lattice.
 """
 
 from collections.abc import Iterator
@@ -25,6 +25,10 @@ class Parameters(SquareParameters):
 
     amplitude: float = number("largest displacement, in spacings", gt=0, lt=0.25)
 
+    def displacements(self, n: int) -> np.ndarray:
+        """u_x [n · n] (m) of the checkerboard with all of its load."""
+        return self.amplitude * (self.L / n) * pattern(n)
+
 
 def check(config) -> Iterator[str]:
     """Complaints about resolution and solver."""
@@ -45,7 +49,7 @@ def build(config) -> Problem:
     """Problem of the checkerboard: every particle is driven in x and held in y."""
     body = square_body(config)
     everybody = np.arange(body.x.size)
-    target = config.scene.amplitude * body.spacing_x * pattern(config.n)
+    target = config.scene.displacements(config.n)
     return Problem(
         body=body,
         constraints=Constraints(everybody, target, everybody, np.zeros(body.x.size)),

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from sphstudy.store.atomic import replacing
 from sphstudy.store.lock import ELSEWHERE, HEARTBEAT, LOST_AFTER
 
 STOPPED = "stopped"
@@ -47,10 +48,8 @@ class Note:
 
     def write(self, path: Path) -> None:
         """Writes the note, whole or not at all; a disk that is full costs the note, not the run."""
-        temporary = path.with_suffix(".tmp")
-        with suppress(OSError):
+        with suppress(OSError), replacing(path, durable=False) as temporary:
             temporary.write_text(json.dumps({"at": self.at, "failures": self.failures}))
-            os.replace(temporary, path)
 
 
 def read_note(path: Path) -> Note:

@@ -18,20 +18,20 @@ from tests.support.made_up import Solver, points
 NUMERICS = "d4c4e5ea3c59"
 """A version that is adopted."""
 
+METRICS = "of before"
+"""A version of metrics that has not changed since."""
+
 
 @pytest.fixture
 def store(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    (point,) = points("n=5")
+    monkeypatch.setitem(adoption._known()["metrics"], METRICS, identity.metrics_version(point.config))
     return Store("results")
 
 
 def old_record(store, point, **attributes):
     """The path of the record as an earlier version would have written it."""
-    (metrics,) = (
-        old
-        for old, now in adoption._known()["metrics"].items()
-        if now == identity.metrics_version(point.config)
-    )
     compute(point.config, store, point.execution)
     new = store.record_path(point.config)
     run = load(new)
@@ -42,7 +42,7 @@ def old_record(store, point, **attributes):
         "configuration": json.dumps(configuration),
         "key": key,
         "numerics_version": NUMERICS,
-        "metrics_version": metrics,
+        "metrics_version": METRICS,
         **attributes,
     }
     old = new.with_name(f"{point.config.label}-{key}.nc")

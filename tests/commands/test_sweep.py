@@ -94,13 +94,13 @@ def test_wrong_input_ends_with_status_two_before_anything_runs(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        (["foo"], "foo: neither a command, a flag nor key=value"),
-        (["-x"], "-x: neither"),
+        (["foo"], "unknown command 'foo'; there are run, study"),
+        (["-x"], "unknown option of run '-x'; there are -m, --multirun"),
         (["study"], "study: name one of"),
-        (["study", "foo"], "study foo: there is"),
+        (["study", "foo"], "unknown study 'foo'; there are"),
         (["status", "results=/nowhere"], "results=/nowhere: there are no runs"),
-        (["describe", "foo"], "describe foo: write describe"),
-        (["describe", "scene", "foo"], "scene=foo: there is"),
+        (["describe", "foo"], "unknown scene, method or solver 'foo'; there are"),
+        (["describe", "scene", "foo"], "unknown scene 'foo'; "),
         (["results=/proc/x"], "results=/proc/x: cannot be written"),
         (["hydra/launcher=foo"], "hydra/launcher=foo"),
         (

@@ -7,7 +7,9 @@ import xarray as xr
 
 from sphstudy.configuration.composition import session
 from sphstudy.running import sweep as sweeps
-from sphstudy.store.store import Store, read_dataset
+from sphstudy.store.measured import up_to_date
+from sphstudy.store.netcdf import read_dataset
+from sphstudy.store.store import Store
 
 
 def run(**settings: Any) -> xr.Dataset:
@@ -35,7 +37,7 @@ def run(**settings: Any) -> xr.Dataset:
         record = store.read(config)
     if record is None:
         raise RuntimeError(f"the record of {config.label} is not there")
-    return record
+    return up_to_date(record, config)
 
 
 def sweep(**settings: Any) -> xr.Dataset:

@@ -140,8 +140,8 @@ def settings(group: str, name: str) -> dict[str, Any]:
     Returns
     -------
     dict
-        Nested settings, which callers must not change. A quantity's bound replaces the parent's as a
-        whole.
+        Nested settings, which callers must not change, the name of the file among them. A quantity's
+        bound replaces the parent's as a whole.
 
     Raises
     ------
@@ -152,7 +152,9 @@ def settings(group: str, name: str) -> dict[str, Any]:
 
 
 @cache
-def _settings(group: str, name: str, folders: tuple[Path, ...]) -> dict[str, Any]:
+def _settings(
+    group: str, name: str, folders: tuple[Path, ...], heirs: tuple[str, ...] = ()
+) -> dict[str, Any]:
     path = next((p for place in folders if (p := place / group / f"{name}.yaml").is_file()), None)
     if path is None:
         raise ConfigurationError([unknown(group, name, names(group))])
@@ -160,12 +162,13 @@ def _settings(group: str, name: str, folders: tuple[Path, ...]) -> dict[str, Any
     inherited = own.pop("defaults", ["_self_"])
     found: dict[str, Any] = {}
     for parent in inherited if isinstance(inherited, list) else [inherited]:
-        if not (isinstance(parent, str) and parent.isidentifier() and parent != name):
+        if not (isinstance(parent, str) and parent.isidentifier() and parent not in (name, *heirs)):
             raise ConfigurationError([f"{group}/{path.name}: defaults: {parent} is no name of a {group}"])
-        above = own if parent == "_self_" else _settings(group, parent, folders)
+        above = own if parent == "_self_" else _settings(group, parent, folders, (name, *heirs))
         bounds = {**found.get("bounds", {}), **above.get("bounds", {})}
         found = merged(found, above) | ({"bounds": bounds} if bounds else {})
-    return found
+    # A scene's file speaks of other parts of the configuration too: its own are below `scene`.
+    return merged(found, {group: {"name": name}} if group in found else {"name": name})
 
 
 def read(path: Path) -> dict[str, Any]:
@@ -201,12 +204,33 @@ def _are_mappings(*values: Any) -> bool:
     return all(isinstance(value, dict) for value in values)
 
 
-def headline(scene: str, solver: str) -> tuple[str, ...]:
-    """What tables show of a run first: the scene's metrics, or numbers of a solver that has none of them.
+def metrics(scene: str) -> tuple[str, ...]:
+    """Modules of metrics that measure a scene, by its name. Raises ConfigurationError as `settings`."""
+    return tuple(_list(scene, "metrics"))
 
-    scene: kind of scene; solver: its name.
+
+def headline(scene: str, solver: str) -> tuple[str, ...]:
+    """Metrics that tables show of a run: the scene's, or those of a solver that records no motion.
+
+    Parameters
+    ----------
+    scene, solver : str
+        Their names.
+
+    Raises
+    ------
+    ConfigurationError
+        As `settings`.
     """
-    return getattr(solver_module(solver), "HEADLINE", scene_module(scene).HEADLINE)
+    own = getattr(solver_module(solver), "HEADLINE", None)
+    return tuple(own or _list(scene, "headline"))
+
+
+def _list(scene: str, section: str) -> list[str]:
+    found = settings("scene", scene).get(section)
+    if not (isinstance(found, list) and all(isinstance(name, str) for name in found)):
+        raise ConfigurationError([f"scene/{scene}.yaml: {section}: should be a list of names"])
+    return found
 
 
 def protocol(scene: str, method: str, solver: str) -> dict[str, Any]:

@@ -10,9 +10,9 @@ import xarray as xr
 
 from sphstudy.analysis import reference
 from sphstudy.analysis.cells import cells
-from sphstudy.analysis.dataset import hashable
+from sphstudy.analysis.dimensions import hashable
 from sphstudy.analysis.results import Results
-from sphstudy.configuration import study_file as study
+from sphstudy.configuration import study_file
 
 WITHIN, OUTSIDE, UNSTABLE, MISSING = "within", "outside", "unstable", "missing"
 """Verdicts. UNSTABLE: the cell sits in an instability and is not judged; MISSING: there is no value."""
@@ -46,11 +46,11 @@ def against_reference(results: Results) -> list[Comparison]:
     points that the reference lacks. Worst first.
     """
     found: list[Comparison] = []
-    for member in study.members(results.name):
+    for member in study_file.members(results.name):
         stored = reference.load(member)
         if stored is None:
             continue
-        unstable = study.load(member).unstable
+        unstable = study_file.load(member).unstable
         rows = results.table[results.table["study"] == member]
         for cell in cells(stored):
             row = _matching(rows, cell.place)

@@ -21,7 +21,7 @@ from sphstudy.catalogue import method_module, scene_module, solver_module
 from sphstudy.configuration.run_settings import RunConfig, validate
 from sphstudy.store import identity
 from sphstudy.store.provenance import provenance
-from sphstudy.store.store import Store
+from sphstudy.store.store import Store, read_summary
 
 CHANGED_SETTING = 0.5
 """Difference between two runs of one more differing setting of method or solver, in powers of e."""
@@ -174,15 +174,13 @@ class _Alike:
 def rates(store: Store) -> Rates:
     """What the runs in the store that are done took; of very many, an even selection."""
     paths = [path for path in sorted(store.runs.glob("*.nc")) if not path.name.startswith(".")]
-    found = Rates(tuple(_measurements(store, paths[:: 1 + len(paths) // ENOUGH])))
-    store.index.flush()
-    return found
+    return Rates(tuple(_measurements(store, paths[:: 1 + len(paths) // ENOUGH])))
 
 
 def _measurements(store: Store, paths: list[Path]) -> Iterable[Measurement]:
     here = provenance()["processor"]
     for path in paths:
-        summary = store.summary_at(path)
+        summary = read_summary(path)
         if summary is None or summary.status != "done":
             continue
         try:

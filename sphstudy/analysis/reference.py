@@ -13,25 +13,27 @@ import yaml
 from pydantic import TypeAdapter
 
 from sphstudy import catalogue
-from sphstudy.analysis import dataset as collect
 from sphstudy.analysis import results
+from sphstudy.analysis.dataset import combine
 from sphstudy.analysis.effects import effects
 from sphstudy.analysis.intervals import Tolerance, tolerances
-from sphstudy.configuration import study_file as study
+from sphstudy.configuration import study_file
 from sphstudy.configuration.composition import Session
 from sphstudy.configuration.study_file import Values
 from sphstudy.errors import ConfigurationError
 from sphstudy.parameters import described, number, parameters
-from sphstudy.store import provenance
-from sphstudy.store.store import Store, read_dataset, write
+from sphstudy.store import netcdf, provenance
+from sphstudy.store.store import Store
+
+
+def _path(name: str) -> Path:
+    return catalogue.folder("reference") / f"{name}.nc"
 
 
 def load(name: str) -> xr.Dataset | None:
     """The stored reference of a study, None if there is none."""
-    path = catalogue.folder("reference") / f"{name}.nc"
-    if not path.is_file():
-        return None
-    return read_dataset(str(path), path.parent)
+    path = _path(name)
+    return netcdf.read_dataset(str(path), path.parent) if path.is_file() else None
 
 
 def metrics(dataset: xr.Dataset) -> list[str]:
@@ -69,20 +71,36 @@ def printed() -> tuple[Printed, ...]:
     return tuple(TypeAdapter(list[Printed]).validate_python(values))
 
 
-def make(hydra: Session, name: str, store_folder: str) -> list[Path]:
-    """Writes the references of a study and of those it includes from their stored points.
+def make(hydra: Session, name: str, folder: str) -> dict[str, xr.Dataset]:
+    """References of a study and of those it includes, made from their stored points.
 
-    Raises ConfigurationError if the sources are not committed, if a point is missing or was computed by
-    sources that were not, or if the effects of the open choices are not there to say how wide intervals
-    may be.
+    Parameters
+    ----------
+    hydra : Session
+        Composes the points.
+    name : str
+        The study.
+    folder : str
+        The folder of results.
+
+    Returns
+    -------
+    dict
+        A combined dataset with accepted intervals for each study, by its name.
+
+    Raises
+    ------
+    ConfigurationError
+        If the sources are not committed, if a point is missing or was computed by sources that were not
+        committed, or if a study of choices, whose effects say how wide intervals may be, lacks points.
     """
     state = provenance.provenance()["git_state"]
     if len(state) != 40:
         raise ConfigurationError([f"reference {name}: the sources are {state}: commit them first"])
-    whole = results.load(name, hydra, [], store_folder)
-    asked = {member: tuple(study.load(member).choices) for member in study.members(name)}
+    whole = results.load(name, hydra, [], folder)
+    asked = {member: study_file.load(member).choices for member in study_file.members(name)}
     choices = {
-        other: results.load(other, hydra, [], store_folder)
+        other: results.load(other, hydra, [], folder)
         for other in dict.fromkeys(itertools.chain.from_iterable(asked.values()))
     }
     complaints = [
@@ -93,16 +111,19 @@ def make(hydra: Session, name: str, store_folder: str) -> list[Path]:
     ]
     if complaints:
         raise ConfigurationError(list(dict.fromkeys(complaints)))
-    found = {other: effects(stored) for other, stored in choices.items()}
-    paths = []
+    allowed = {other: tolerances(effects(stored)) for other, stored in choices.items()}
+    made = {}
     for member, own in whole.table.groupby("study", sort=False):
         configs = [whole.config_at(index) for index in own.drop_duplicates("record").index]
-        dataset, _ = collect.collect(configs, Store(store_folder), str(member))
-        path = catalogue.folder("reference") / f"{member}.nc"
-        allowed = _widest([tolerances(found[other]) for other in asked[str(member)]])
-        write(_with_intervals(dataset, allowed), path, "NETCDF3_64BIT")
-        paths.append(path)
-    return paths
+        dataset = combine(configs, Store(folder), name)
+        made[str(member)] = _with_intervals(dataset, _widest([allowed[o] for o in asked[str(member)]]))
+    return made
+
+
+def write(dataset: xr.Dataset, name: str) -> Path:
+    """Writes the reference of a study; returns its file."""
+    netcdf.write(dataset, path := _path(name), "NETCDF3_64BIT")
+    return path
 
 
 def _widest(several: list[dict[str, Tolerance]]) -> dict[str, Tolerance]:

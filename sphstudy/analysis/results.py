@@ -7,12 +7,13 @@ from typing import Any
 import pandas as pd
 import xarray as xr
 
-from sphstudy.analysis import dataset
+from sphstudy.analysis.points_table import points_table
 from sphstudy.configuration import study_file
 from sphstudy.configuration.composition import Session
 from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.configuration.study_file import Study
 from sphstudy.configuration.study_points import StudyPoints, all_points
+from sphstudy.store.measured import up_to_date
 from sphstudy.store.store import Store
 
 
@@ -158,11 +159,17 @@ def _load(
                 configs.append(point.config)
                 places.append({"study": member, "block": block, "varied": varied})
     store = Store(folder)
-    rows, attributes = dataset.rows(configs, store)
-    table = pd.DataFrame([{**p, **c.flat(), **r} for p, c, r in zip(places, configs, rows, strict=True)])
+    stored = points_table(configs, store, name)
+    rows = [{**p, **c.flat(), **r} for p, c, r in zip(places, configs, stored.rows, strict=True)]
+
     # One record serves several figures in a row.
-    record = lru_cache(maxsize=8)(lambda row: store.read(configs[row]))
-    return Results(name, study_file.load(name), table, attributes, record, other, configs.__getitem__)
+    @lru_cache(maxsize=8)
+    def record(row: int) -> xr.Dataset | None:
+        run = store.read(configs[row])
+        return None if run is None else up_to_date(run, configs[row])
+
+    definition, table = study_file.load(name), pd.DataFrame(rows)
+    return Results(name, definition, table, stored.attributes, record, other, configs.__getitem__)
 
 
 def _difference(base: dict[str, Any], flat: dict[str, Any]) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from sphstudy.analysis.dataset import hashable
+from sphstudy.analysis.dimensions import hashable
 from sphstudy.errors import ConfigurationError
 
 ERRORS = {

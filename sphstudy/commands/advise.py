@@ -23,7 +23,8 @@ from sphstudy.configuration import study_file
 from sphstudy.configuration.composition import Session, session
 from sphstudy.console import print_table
 from sphstudy.errors import ConfigurationError
-from sphstudy.store.store import Store, read_dataset
+from sphstudy.store.netcdf import read_dataset
+from sphstudy.store.store import Store
 from sphstudy.table import Column, Table
 from sphstudy.text import duration, number, percent, with_uncertainty
 

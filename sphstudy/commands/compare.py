@@ -21,7 +21,7 @@ from sphstudy.commands.parser import Request
 from sphstudy.configuration.composition import session
 from sphstudy.console import print_table
 from sphstudy.errors import ConfigurationError
-from sphstudy.store.store import read_dataset
+from sphstudy.store.netcdf import read_dataset
 from sphstudy.table import Column, Table
 
 SHOWN = 20

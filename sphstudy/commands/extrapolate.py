@@ -21,7 +21,7 @@ from sphstudy.commands.parser import Request
 from sphstudy.configuration import study_file
 from sphstudy.console import print_table
 from sphstudy.errors import ConfigurationError
-from sphstudy.store.store import read_dataset, write
+from sphstudy.store.netcdf import read_dataset, write
 from sphstudy.table import Column, Table
 from sphstudy.text import NOTHING, with_uncertainty
 

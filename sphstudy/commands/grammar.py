@@ -105,6 +105,7 @@ COMMANDS = {
         )
     ),
     "status": Command((_RESULTS, _OWN), most=1, settings=True),
+    "adopt": Command((_RESULTS,)),
     "prune": Command((Option("yes", "remove what is stale"), _RESULTS)),
     "list": Command(),
     "describe": Command(least=1, most=2),

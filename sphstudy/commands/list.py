@@ -6,6 +6,8 @@ Prints all names that the program knows, with a line on each.
 """
 
 import ast
+import shutil
+import textwrap
 from pathlib import Path
 
 import yaml
@@ -27,8 +29,8 @@ def run(request: Request) -> int:
     """Prints scenes, methods, solvers, metrics and studies."""
     for group in PLACES:
         _print(group, {name: about(group, name) for name in catalogue.names(group)})
-    metrics = {path.stem: path for path in sorted((_PACKAGE / "metrics").glob("*.py"))}
-    _print("metrics", {name: _about(path) for name, path in metrics.items() if _measures(path)})
+    metrics = dict.fromkeys(m for scene in catalogue.names("scene") for m in catalogue.metrics(scene))
+    _print("metrics", {name: _about(_PACKAGE / "metrics" / f"{name}.py") for name in metrics})
     studies = sorted(catalogue.folder("studies").glob("*.yaml"))
     _print("studies", {path.stem: yaml.safe_load(path.read_text())["title"] for path in studies})
     return 0
@@ -60,11 +62,8 @@ def _about(path: Path) -> str:
     return (text or "").partition("\n")[0]
 
 
-def _measures(path: Path) -> bool:
-    return any(line.startswith("def measure(") for line in path.read_text(encoding="utf-8").splitlines())
-
-
 def _print(heading: str, lines: dict[str, str]) -> None:
     print(f"{heading}:")
+    width, indent = shutil.get_terminal_size((400, 24)).columns, 20 * " "
     for name, text in lines.items():
-        print(f"  {name:17s} {text}")
+        print(textwrap.fill(text, width, initial_indent=f"  {name:17s} ", subsequent_indent=indent))

@@ -32,7 +32,8 @@ def run(request: Request) -> int:
         if record is not None and STATUS[int(record["status"])] == "done":
             store.keep(config, measured(record, config))
             count += 1
-    combined, path = dataset.collect(configs, store, study_file.results_name(name, settings))
+    combined = dataset.combine(configs, store, name)
+    path = dataset.write(combined, configs, store, study_file.results_name(name, settings))
     print_tables(combined)
     print(f"{count} of {len(points)} points measured again\ndataset: {path}")
     return 0

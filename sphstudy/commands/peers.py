@@ -22,7 +22,7 @@ from sphstudy.benchmarks.peers.measure import Case
 from sphstudy.benchmarks.peers.plate import plate
 from sphstudy.commands.parser import Request
 from sphstudy.errors import ConfigurationError, unknown
-from sphstudy.store.store import write
+from sphstudy.store.netcdf import write
 
 
 def run(request: Request) -> int:

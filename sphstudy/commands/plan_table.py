@@ -8,7 +8,7 @@ from sphstudy.configuration.run_settings import flattened
 from sphstudy.console import print_table
 from sphstudy.running.plan import Planned, prediction
 from sphstudy.store import identity
-from sphstudy.store.store import Store
+from sphstudy.store.store import Store, read_summary
 from sphstudy.table import Column, Table
 
 
@@ -48,7 +48,7 @@ def _older_records(planned: list[Planned], store: Store) -> dict[int, str]:
     found: dict[int, str] = {}
     for path in store.runs.glob("*.nc"):
         label = path.stem.rpartition("-")[0]
-        if label not in wanted or (summary := store.summary_at(path)) is None:
+        if label not in wanted or (summary := read_summary(path)) is None:
             continue
         p = wanted[label]
         reason = _difference(summary.attributes, p.point)

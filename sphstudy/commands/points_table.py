@@ -58,7 +58,7 @@ def print_tables(dataset: xr.Dataset) -> None:
     points = int((dataset["configuration"] != "").sum())
     listed = cells(dataset, without="done" if points > LONGEST else "")
     for point in listed[:LONGEST]:
-        metrics = headline(point.flat["scene.kind"], point.flat["solve"])
+        metrics = headline(point.flat["scene"], point.flat["solve"])
         groups.setdefault((point.flat["scene"], metrics), []).append(point)
     for (_, metrics), found in groups.items():
         print_table(_table(dataset, found, metrics))

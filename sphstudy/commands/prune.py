@@ -22,7 +22,6 @@ def run(request: Request) -> int:
     if not store.runs.is_dir():
         raise ConfigurationError([f"results={request.results}: there are no runs"])
     found = list(stale(store))
-    store.index.flush()
     columns = [Column("file", numeric=False), Column("because", numeric=False), Column("MB")]
     print_table(Table.of_texts(columns, [[o.path.name, o.reason, f"{o.size / 1e6:.2f}"] for o in found]))
     total = f"{len(found)} files, {sum(one.size for one in found) / 1e6:.1f} MB"

@@ -19,6 +19,6 @@ def run(request: Request) -> int:
     name = request.words[0]
     with session() as hydra:
         folder = all_points(hydra, name, [f"results={request.results}"])[1]
-        for path in reference.make(hydra, name, folder):
-            print(f"reference: {path}")
+        for member, made in reference.make(hydra, name, folder).items():
+            print(f"reference: {reference.write(made, member)}")
     return 0

@@ -36,7 +36,8 @@ def run(request: Request) -> int:
     from sphstudy.benchmarks.speed.measurements import measure
     from sphstudy.benchmarks.speed.tables import print_tables
     from sphstudy.configuration.composition import session
-    from sphstudy.store.store import Store, write
+    from sphstudy.store.netcdf import write
+    from sphstudy.store.store import Store
 
     Store(settings.results).prepare()
     with session() as hydra:
@@ -59,7 +60,7 @@ def _print_plan(settings: Settings, path: Path) -> None:
 
 def _before(path: Path) -> dict[str, str]:
     """What each part took when it was measured last."""
-    from sphstudy.store.store import read_dataset
+    from sphstudy.store.netcdf import read_dataset
 
     if not path.is_file():
         return {}

@@ -24,7 +24,7 @@ from sphstudy.console import print_table
 from sphstudy.errors import ConfigurationError
 from sphstudy.running.plan import plan
 from sphstudy.store.lock import Holder, holder, is_alive
-from sphstudy.store.store import CHECKPOINT, CLAIM, Store
+from sphstudy.store.store import CHECKPOINT, CLAIM, Store, read_summary
 from sphstudy.table import Column, Table
 from sphstudy.text import duration
 
@@ -87,7 +87,6 @@ def _of_folder(folder: str) -> list[Line]:
         Line(path.stem, "unreadable", float("nan"), "set aside; the run is done again when asked for")
         for path in sorted(store.runs.glob("*.unreadable"))
     ]
-    store.index.flush()
     return lines
 
 
@@ -95,7 +94,7 @@ def _line(store: Store, stem: Path, claimed: bool, kept: bool) -> Line | None:
     """A run with a claim, a checkpoint or a record; None if none of these can be read."""
     claim = stem.with_name(stem.name + CLAIM)
     alive = claimed and is_alive(claim)
-    if not alive and (summary := store.summary_at(stem.with_name(stem.name + ".nc"))):
+    if not alive and (summary := read_summary(stem.with_name(stem.name + ".nc"))):
         # A claim that is lost beside a record: its process was killed when all was done.
         seconds = summary.numbers.get("cpu_seconds", float("nan"))
         return Line(stem.name, summary.status, seconds, summary.attributes["message"])
@@ -121,7 +120,6 @@ def _of_study(request: Request) -> tuple[list[Line], str]:
         store = Store(folder)
         planned = plan(points, store)
         lines = [_of_point(store, p.point.config, p.status) for p in planned]
-    store.index.flush()
     return lines, "\n".join(_pace(store, planned))
 
 

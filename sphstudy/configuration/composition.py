@@ -37,7 +37,7 @@ LAUNCHERS = ("local", "basic", "slurm")
 """Side by side on this machine, one after the other in this process, jobs of a SLURM cluster."""
 
 _GROUPS = ("scene", "method", "solve")
-_LISTS = ("metrics", "headline", "protocol", "source", "bounds", "quoted")
+SECTIONS = ("metrics", "headline", "protocol", "source", "bounds", "quoted")
 """Sections of a scene's file that are no settings of a run: the catalogue reads them."""
 
 
@@ -256,10 +256,10 @@ class Session:
             OmegaConf.create({key: config[key] for key in config if key != "hydra"}), resolve=True
         )
         values: Any = plain
-        for section in _LISTS:
+        for section in SECTIONS:
             values.pop(section, None)
         if strange := values.keys() - {*SETTINGS, *(f.name for f in dataclasses.fields(RunConfig))}:
-            own = [*_GROUPS, "n", "h", "seed", "record", *_LISTS]
+            own = [*_GROUPS, "n", "h", "seed", "record", *SECTIONS]
             raise ConfigurationError([unknown(f"section of scene {names[0]}", s, own) for s in strange])
         values["method"].pop("protocol", None)
         values = catalogue.merged(values, catalogue.protocol(*names))

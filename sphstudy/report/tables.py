@@ -8,8 +8,8 @@ from typing import Any
 import pandas as pd
 
 from sphstudy import text
-from sphstudy.analysis import dataset
 from sphstudy.analysis.compare import Comparison
+from sphstudy.analysis.dimensions import ALWAYS, dimensions
 from sphstudy.analysis.effects import Effect
 from sphstudy.analysis.results import Results
 from sphstudy.catalogue import headline
@@ -52,7 +52,7 @@ class Group:
     @property
     def headline(self) -> list[str]:
         """The metrics for tables of its points, as far as any point of the study has them."""
-        kinds = dict.fromkeys((config.scene.kind, config.solve.name) for config in self.configs)
+        kinds = dict.fromkeys((config.scene.name, config.solve.name) for config in self.configs)
         names = dict.fromkeys(name for kind in kinds for name in headline(*kind))
         return [name for name in names if name in self.results.attributes]
 
@@ -105,9 +105,9 @@ def points(group: Group) -> Table:
 
 def _told_apart(group: Group) -> dict[str, bool]:
     """Keys of the settings that differ, h and n always, and whether their values are numbers."""
-    swept: dict[str, list[Any]] = dataset.dimensions(group.configs)
+    swept: dict[str, list[Any]] = dimensions([config.flat() for config in group.configs])
     if group.one_at_a_time:
-        swept = {key: swept[key] for key in dataset.ALWAYS}
+        swept = {key: swept[key] for key in ALWAYS}
     return {
         key: all(isinstance(value, _NUMBER) and not isinstance(value, bool) for value in values)
         for key, values in swept.items()

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from sphstudy.analysis import dataset as collect
+from sphstudy.analysis import dataset
 from sphstudy.configuration.composition import Point, Session
 from sphstudy.running.launching import Launching
 from sphstudy.running.plan import kept, plan, prediction
@@ -65,4 +65,6 @@ def sweep(
     elsewhere = [p for p in planned if p.status == "running"]
     if elsewhere:
         launching.wait_for(elsewhere)
-    return collect.collect([p.config for p in points], store, name)
+    configs = [p.config for p in points]
+    combined = dataset.combine(configs, store)
+    return combined, dataset.write(combined, configs, store, name)

@@ -1,8 +1,6 @@
 """Checkpoints of one run in a file beside its record: written by wall time, whole or not at all."""
 
-import os
 import sys
-import tempfile
 import time
 import zipfile
 from pathlib import Path
@@ -12,13 +10,23 @@ import numpy as np
 
 from sphstudy.numerics.compile_timer import compiling_so_far
 from sphstudy.numerics.solvers.checkpoint import Checkpoint
+from sphstudy.store.atomic import replacing
 
 
 class CheckpointFile:
-    """The checkpoint of a run, renewed every `interval` seconds of wall time.
+    """The checkpoint of a run.
 
-    `cpu_seconds`, `wall_seconds`: spent before this process took over, compilation apart; 0 without a
-    checkpoint.
+    Parameters
+    ----------
+    path : Path
+        Where it lies.
+    interval : float
+        Wall time between two checkpoints (s).
+
+    Attributes
+    ----------
+    cpu_seconds, wall_seconds : float
+        Time spent by earlier processes without compilation (s); 0 unless a checkpoint was loaded.
     """
 
     def __init__(self, path: Path, interval: float):
@@ -29,7 +37,7 @@ class CheckpointFile:
         self._last = time.monotonic()
 
     def load(self) -> Checkpoint | None:
-        """The checkpoint kept in the file, or None; one that cannot be read is said and ignored."""
+        """The checkpoint in the file; None if there is none, or (with a line on stderr) it is damaged."""
         try:
             with open(self.path, "rb") as file:
                 arrays = dict(np.load(file, allow_pickle=False))
@@ -47,10 +55,7 @@ class CheckpointFile:
         return time.monotonic() - self._last >= self.interval
 
     def save(self, checkpoint: Checkpoint) -> None:
-        """Writes the checkpoint so that the file holds either the old one or the whole new one.
-
-        A disk that is full costs the checkpoint, not the run.
-        """
+        """Writes the checkpoint, whole or not at all. A full disk costs the checkpoint, not the run."""
         try:
             self._write(checkpoint)
         except OSError as error:
@@ -63,17 +68,9 @@ class CheckpointFile:
             self.cpu_seconds + time.process_time() - self._cpu - (compiling[1] - self._compiling[1]),
             self.wall_seconds + time.perf_counter() - self._wall - (compiling[0] - self._compiling[0]),
         )
-        handle, temporary = tempfile.mkstemp(dir=self.path.parent, prefix=".writing-")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                arrays: Any = {"spent": np.array(spent), **checkpoint.arrays()}
-                np.savez(file, **arrays)
-                file.flush()
-                os.fsync(file.fileno())
-            os.replace(temporary, self.path)
-        except BaseException:
-            Path(temporary).unlink(missing_ok=True)
-            raise
+        arrays: Any = {"spent": np.array(spent), **checkpoint.arrays()}
+        with replacing(self.path) as temporary, open(temporary, "wb") as file:
+            np.savez(file, **arrays)
 
     def remove(self) -> None:
         """Removes the file: the run has its record."""

@@ -1,8 +1,11 @@
 """Whether a file is what was written: after its end stand a text, and a digest of all bytes before it.
 
-HDF5 has no checksums of attributes and single numbers, and reads what bits have become. It does not mind
-bytes after its own, so that any reader of netCDF reads a sealed file. The text says in short what is in
-the file: opening a netCDF file and going through its variables takes a hundred times longer.
+HDF5 has no checksums of attributes and single numbers and does not notice a changed bit there. It ignores
+bytes after its own: any reader of netCDF reads a sealed file. The text is a summary of the file: opening
+netCDF and going through its variables takes a hundred times longer than reading it. It has a short digest
+of its own, so that it can be trusted without reading the whole file:
+
+    netCDF file | text | digest of text and file size (8 bytes) | length of the text (8) | mark | SHA-256
 """
 
 import hashlib
@@ -11,60 +14,123 @@ from pathlib import Path
 from typing import Any
 
 SEALED = "sealed"
-"""Global attribute of a file that has a seal: one without it is not whole."""
+"""Global attribute of a file that was written with a seal: without the seal, it has been cut off."""
 
 HOW = "a text and a digest follow the file's end"
-"""Its value."""
+"""Value of that attribute."""
 
-_MARK = b"sphstudy, digest"
-_LENGTH = 8
-_TAIL = _LENGTH + len(_MARK) + hashlib.sha256().digest_size
+_MARK = b"sphstudy, sealed"
+_WITHOUT_OWN = b"sphstudy, digest"
+"""Mark of earlier versions, whose texts have no digest of their own."""
 
-
-def seal(path: Path, text: str) -> None:
-    """Puts a text and the digest after the end of a file, and all on the disk. Raises OSError."""
-    said = text.encode()
-    said += len(said).to_bytes(_LENGTH, "little") + _MARK
-    with open(path, "r+b") as file:
-        digest = hashlib.file_digest(file, "sha256")
-        digest.update(said)
-        file.seek(0, os.SEEK_END)
-        file.write(said + digest.digest())
-        file.flush()
-        os.fsync(file.fileno())
-
-
-def check_seal(path: Path) -> str | None:
-    """The text of a sealed file; None if it has no seal. Raises ValueError if it has changed since."""
-    with open(path, "rb") as file:
-        size = file.seek(0, os.SEEK_END) - _TAIL
-        if size < 0:
-            return None
-        file.seek(size)
-        tail = file.read()
-        if tail[_LENGTH : _LENGTH + len(_MARK)] != _MARK:
-            return None
-        length = int.from_bytes(tail[:_LENGTH], "little")
-        if length > size:
-            raise ValueError(_CHANGED)
-        file.seek(0)
-        digest, left = hashlib.sha256(), size - length
-        while left > 0 and (part := file.read(min(left, 1 << 20))):
-            digest.update(part)
-            left -= len(part)
-        said = file.read(length)
-    digest.update(said + tail[: _LENGTH + len(_MARK)])
-    if digest.digest() != tail[_LENGTH + len(_MARK) :]:
-        raise ValueError(_CHANGED)
-    return said.decode()
-
+_DIGEST = hashlib.sha256().digest_size
+_FOOT = 8 + len(_MARK) + _DIGEST
+_AT_ONCE = 1 << 14
+"""Bytes at the end of a file that are read first: more than foot and text of nearly all records."""
 
 _CHANGED = "its bytes are not those that were written"
 
 
-def taken_seal(attributes: dict[str, Any], sealed: bool) -> None:
-    """Takes out of a file's attributes that it is sealed. Raises ValueError if it is not; a file from
-    before there were seals passes.
+def seal(path: Path, text: str) -> None:
+    """Appends a text and the digest to a file.
+
+    Parameters
+    ----------
+    path : Path
+        The file, without a seal.
+    text : str
+        Its summary.
+    """
+    summary = text.encode()
+    with open(path, "r+b") as file:
+        whole = hashlib.file_digest(file, "sha256")
+        size = file.seek(0, os.SEEK_END) + len(summary) + 8 + _FOOT
+        end = summary + _own(summary, size) + len(summary).to_bytes(8, "little") + _MARK
+        whole.update(end)
+        file.write(end + whole.digest())
+
+
+def check_seal(path: Path) -> bool:
+    """Reads all bytes of a file.
+
+    Returns
+    -------
+    bool
+        Whether the file has a seal.
+
+    Raises
+    ------
+    ValueError
+        If a byte has changed since the file was sealed.
+    """
+    with open(path, "rb") as file:
+        left = file.seek(0, os.SEEK_END) - _DIGEST
+        file.seek(max(0, left - len(_MARK)))
+        if file.read(len(_MARK)) not in (_MARK, _WITHOUT_OWN):
+            return False
+        expected = file.read()
+        file.seek(0)
+        digest = hashlib.sha256()
+        while left > 0 and (part := file.read(min(left, 1 << 20))):
+            digest.update(part)
+            left -= len(part)
+    if digest.digest() != expected:
+        raise ValueError(_CHANGED)
+    return True
+
+
+def sealed_text(path: Path) -> str | None:
+    """Reads the end of a file only; all of it if an earlier version sealed it.
+
+    Returns
+    -------
+    str or None
+        The text behind the file; None if it has no seal.
+
+    Raises
+    ------
+    ValueError
+        If the text or the size of the file has changed since the file was sealed.
+    """
+    with open(path, "rb", buffering=0) as file:
+        size = file.seek(0, os.SEEK_END)
+        end = os.pread(file.fileno(), _AT_ONCE, max(0, size - _AT_ONCE))
+        mark = end[8 - _FOOT : -_DIGEST]
+        if mark == _WITHOUT_OWN:
+            check_seal(path)
+        elif mark != _MARK:
+            return None
+        own = 8 if mark == _MARK else 0
+        length = int.from_bytes(end[-_FOOT : 8 - _FOOT], "little")
+        needed = length + own + _FOOT
+        if needed > size:
+            raise ValueError(_CHANGED)
+        if needed > len(end):
+            end = os.pread(file.fileno(), needed, size - needed)
+    text = end[len(end) - needed : len(end) - needed + length]
+    if own and _own(text, size) != end[-_FOOT - own : -_FOOT]:
+        raise ValueError(_CHANGED)
+    return text.decode()
+
+
+def _own(text: bytes, size: int) -> bytes:
+    return hashlib.blake2b(text + size.to_bytes(8, "little"), digest_size=8).digest()
+
+
+def remove_marker(attributes: dict[str, Any], sealed: bool) -> None:
+    """Removes the attribute `sealed` from a file's attributes.
+
+    Parameters
+    ----------
+    attributes : dict
+        Global attributes of the file.
+    sealed : bool
+        Whether the file has a seal.
+
+    Raises
+    ------
+    ValueError
+        If the attribute is there and the seal is not. Files that never had either pass.
     """
     if attributes.pop(SEALED, None) == HOW and not sealed:
         raise ValueError("cut off, or written by another program")

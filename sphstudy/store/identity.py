@@ -10,6 +10,7 @@ import json
 from functools import cache, lru_cache
 from pathlib import Path
 
+from sphstudy import catalogue
 from sphstudy.catalogue import method_module, scene_module, solver_module
 from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.numerics.version import PACKAGE, code_digest, version
@@ -53,7 +54,7 @@ def metrics_version(config: RunConfig) -> str:
     str
         Hexadecimal digits.
     """
-    return _metrics_version(tuple(scene_module(config.scene.kind).METRICS))
+    return _metrics_version(catalogue.metrics(config.scene.name))
 
 
 @cache

@@ -10,8 +10,10 @@ from pathlib import Path
 from sphstudy.configuration.run_settings import validate
 from sphstudy.errors import ConfigurationError
 from sphstudy.store import identity
+from sphstudy.store.adoption import adoptable
+from sphstudy.store.atomic import UNFINISHED
 from sphstudy.store.lock import is_alive
-from sphstudy.store.store import CHECKPOINT, CLAIM, Store
+from sphstudy.store.store import CHECKPOINT, CLAIM, Store, read_summary
 
 FORGOTTEN = 30 * 24 * 3600.0
 """Age of a checkpoint (s) from which on it counts as abandoned."""
@@ -68,8 +70,10 @@ def stale(store: Store) -> Iterator[Stale]:
             yield Stale(path, "a checkpoint that nobody went on from for a month", found.st_size)
     for path in sorted(store.runs.glob("*.unreadable")):
         yield Stale(path, "no record: set aside when it was looked for", path.lstat().st_size)
+    for path in sorted(store.runs.glob(".index.sqlite*")):
+        yield Stale(path, "an index that earlier versions kept", path.stat().st_size)
     if not alive:
-        for path in sorted(store.runs.glob(".writing-*")):
+        for path in sorted(store.runs.glob(f"{UNFINISHED}*")):
             yield Stale(path, "a write that was not finished", path.stat().st_size)
 
 
@@ -83,9 +87,9 @@ def remove(path: Path) -> None:
 
 def _why(store: Store, path: Path) -> str:
     """Why a record is stale; "" if it is not."""
-    summary = store.summary_at(path)
-    if summary is None:
-        return ""  # set aside just now, and listed as such
+    summary = read_summary(path)
+    if summary is None or adoptable(summary.attributes):
+        return ""  # set aside just now, and listed as such; or `sphstudy adopt` makes use of it
     try:
         config = validate(json.loads(summary.attributes["configuration"]))
     except ConfigurationError as error:

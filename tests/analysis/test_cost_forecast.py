@@ -12,8 +12,9 @@ from sphstudy.catalogue import solver_module
 from sphstudy.configuration.composition import session
 from sphstudy.metrics.metric import Metric
 from sphstudy.store import identity, record
+from sphstudy.store.netcdf import write
 from sphstudy.store.provenance import provenance
-from sphstudy.store.store import Store, write
+from sphstudy.store.store import Store
 
 FACTORS = {
     "explicit": np.array([0.1, 2e-8, 5e-9, 0.0, 0.0]),

@@ -7,13 +7,14 @@ import pytest
 from scipy.optimize import curve_fit
 
 from sphstudy.analysis import richardson
-from sphstudy.analysis.dataset import collect
+from sphstudy.analysis.dataset import combine
 from sphstudy.analysis.extrapolation import extrapolated, series
 from sphstudy.analysis.richardson import Extrapolation, extrapolate
 from sphstudy.configuration.composition import session
 from sphstudy.errors import ConfigurationError
+from sphstudy.store.netcdf import read_dataset, write
 from sphstudy.store.record import STATUS
-from sphstudy.store.store import Store, read_dataset, write
+from sphstudy.store.store import Store
 
 THREE = np.array([0.031, 0.022, 0.017])
 FIVE = np.array([0.031, 0.022, 0.02, 0.013, 0.011])
@@ -188,7 +189,7 @@ def swept(tmp_path, *overrides):
         resolutions = ",".join(map(str, RESOLUTIONS))
         arguments = ["scene=plate", "h=1.3,1.5", f"n={resolutions}", *overrides]
         configs = [point.config for point in hydra.points(arguments, sweep=True)[0]]
-    dataset, _ = collect(configs, Store(tmp_path), "swept")
+    dataset = combine(configs, Store(tmp_path))
     dims = dataset["status"].dims
     dataset["status"][:] = STATUS.index("done")
     h, n = (dataset[key].broadcast_like(dataset["status"]).transpose(*dims) for key in ("h", "n"))

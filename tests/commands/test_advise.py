@@ -8,8 +8,8 @@ import xarray as xr
 
 from sphstudy.__main__ import main
 from sphstudy.configuration.composition import session
+from sphstudy.store.netcdf import write
 from sphstudy.store.record import STATUS, status_variable
-from sphstudy.store.store import write
 
 MODES = ["scene=plate", "method=tl", "solve=modes", "h=1.3", "n=9,15,21"]
 STEPPED = [

@@ -5,8 +5,8 @@ import pytest
 import xarray as xr
 
 from sphstudy.__main__ import main
+from sphstudy.store.netcdf import write
 from sphstudy.store.record import STATUS
-from sphstudy.store.store import write
 from sphstudy.text import with_uncertainty
 from tests.analysis.test_extrapolation import swept
 
@@ -108,7 +108,10 @@ def test_a_value_has_the_digits_that_its_uncertainty_leaves(value, uncertainty, 
         (["swept", "tip", "--order=0"], "--order=0: should be a number"),
         (["swept", "tip", "--order=nan"], "--order=nan: should be a number"),
         (["swept", "tip", "--order"], "--order: lacks its value (see sphstudy extrapolate --help)"),
-        (["swept", "tip", "--over", "h"], "unknown option of extrapolate '--over'; did you mean '--order'?"),
+        (
+            ["swept", "tip", "--over", "h"],
+            "unknown option of extrapolate '--over'; did you mean '--order'?",
+        ),
         (["swept", "tip", "--output", "results/sweeps/swept.nc"], "that is the dataset itself"),
         (["swept", "tip", "--output", "text.nc/zero.nc"], "--output=text.nc/zero.nc: cannot be written"),
     ],

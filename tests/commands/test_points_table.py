@@ -2,7 +2,7 @@
 
 import pytest
 
-from sphstudy.analysis import dataset as collect
+from sphstudy.analysis.dataset import combine
 from sphstudy.commands import points_table
 from sphstudy.configuration.composition import session
 from sphstudy.running.one_run import give_up
@@ -22,7 +22,7 @@ def dataset(tmp_path_factory):
     without_metrics = with_metrics(store.read(configs[0]), {}, identity.metrics_version(configs[0]))
     store.keep(configs[0], without_metrics)
     give_up(configs[1], store, "failed", "why")
-    return collect.collect(configs, store)[0]
+    return combine(configs, store)
 
 
 def test_every_point_of_a_few_has_its_line(dataset, capsys):

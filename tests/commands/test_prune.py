@@ -12,8 +12,9 @@ from sphstudy.running import one_run
 from sphstudy.running.one_run import compute, give_up
 from sphstudy.store import identity
 from sphstudy.store.lock import Claim
+from sphstudy.store.netcdf import write
 from sphstudy.store.stale import FORGOTTEN
-from sphstudy.store.store import Store, write
+from sphstudy.store.store import Store
 from tests.support.made_up import Solver, points, solved
 
 
@@ -71,7 +72,7 @@ def folder(tmp_path, monkeypatch):
 
 
 def names(store):
-    return {p.name for p in store.runs.iterdir()} - {".claims", ".index.sqlite"}
+    return {p.name for p in store.runs.iterdir()} - {".claims"}
 
 
 def test_each_kind_is_listed_with_its_reason_and_nothing_is_removed(folder, capsys):

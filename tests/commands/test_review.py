@@ -10,7 +10,8 @@ import sphstudy
 from sphstudy import catalogue
 from sphstudy.__main__ import main
 from sphstudy.store import provenance
-from sphstudy.store.store import read, write
+from sphstudy.store.netcdf import write
+from sphstudy.store.store import read
 
 PLATE = "{scene: plate, h: [1.5, 1.7], n: [5, 7], scene.periods: 0.3}"
 CHOICES = """

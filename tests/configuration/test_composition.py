@@ -4,8 +4,10 @@ import os
 
 import pytest
 
-from sphstudy.configuration.composition import session
+from sphstudy import catalogue
+from sphstudy.configuration.composition import SECTIONS, session
 from sphstudy.configuration.execution import SETTINGS
+from sphstudy.configuration.run_settings import validate
 from sphstudy.errors import ConfigurationError
 
 
@@ -132,9 +134,28 @@ def test_groups_are_composed_once_and_values_set_on_a_copy(hydra):
     from hydra.types import RunMode
     from omegaconf import OmegaConf
 
-    from sphstudy.configuration.run_settings import validate
-
-    overrides = ["scene=mode2", "h=1.7", "n=50", "scene.nu=0.25", "record.times=[0.1]", "results=x"]
-    whole = hydra._loader.load_configuration("config", overrides, RunMode.RUN)
-    values = {k: v for k, v in OmegaConf.to_container(whole).items() if k not in ("hydra", *SETTINGS)}
+    overrides = ["scene=spin", "h=1.7", "n=50", "scene.nu=0.25", "record.times=[0.1]", "results=x"]
+    whole = OmegaConf.to_container(hydra._loader.load_configuration("config", overrides, RunMode.RUN))
+    values = {k: v for k, v in whole.items() if k not in ("hydra", *SETTINGS, *SECTIONS)}
+    for part, name in (("scene", "spin"), ("method", "thesis"), ("solve", "explicit")):
+        values[part]["name"] = name
     assert validate(values) == hydra.points(overrides, sweep=False)[0][0].config
+
+
+@pytest.mark.parametrize("scene", catalogue.names("scene"))
+def test_the_catalogue_inherits_as_hydra_does(hydra, scene):
+    from hydra.types import RunMode
+    from omegaconf import OmegaConf
+
+    config = hydra._loader.load_configuration("config", [f"scene={scene}"], RunMode.RUN)
+    whole, found = OmegaConf.to_container(config), dict(catalogue.settings("scene", scene))
+    record, whole["scene"]["name"] = found.pop("record", {}), scene
+    assert whole["record"] == {**whole["record"], **record}
+    assert {key: whole[key] for key in found} == found
+
+
+@pytest.mark.parametrize("scene", catalogue.names("scene"))
+def test_every_list_of_a_scene_names_modules_of_metrics(scene):
+    assert all(catalogue.module("metrics", name) for name in catalogue.metrics(scene))
+    assert catalogue.headline(scene, "explicit")
+    assert catalogue.headline(scene, "limit")[0] == "largest_stable_courant"

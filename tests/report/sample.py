@@ -17,7 +17,8 @@ from sphstudy.metrics.metric import Metric
 from sphstudy.report import page
 from sphstudy.report.figure import figure
 from sphstudy.store import identity, record
-from sphstudy.store.store import Store, write
+from sphstudy.store.netcdf import write
+from sphstudy.store.store import Store
 
 COMMIT = "0123456789abcdef0123456789abcdef01234567"
 STUDY = """

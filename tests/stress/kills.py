@@ -20,8 +20,9 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from sphstudy.analysis.dataset import ORIGIN
-from sphstudy.store.store import read, read_dataset
+from sphstudy.analysis.points_table import ORIGIN
+from sphstudy.store.netcdf import read_dataset
+from sphstudy.store.store import read
 
 PLATE = ("scene=plate", "method=tl", "scene.periods=0.01")
 SWEEP = ("-m", *PLATE, "n=5,7", "h=1.3,1.4", "hydra.launcher.n_jobs=2")

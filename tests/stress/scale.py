@@ -21,7 +21,8 @@ from sphstudy.configuration.composition import Point, session
 from sphstudy.running import sweep
 from sphstudy.store import identity
 from sphstudy.store.checksum import HOW, SEALED, seal
-from sphstudy.store.store import Store, write
+from sphstudy.store.netcdf import write
+from sphstudy.store.store import Store
 from sphstudy.store.summary import of_record
 
 
@@ -99,10 +100,8 @@ def main(count: int, folder: str) -> None:
         begun = time.perf_counter()
         make(points, store)
         print(f"{len(points)} records made in {time.perf_counter() - begun:.0f} s")
-    store.index.path.unlink(missing_ok=True)
     timed("status, first time", "status", f"results={folder}")
     timed("status, again", "status", f"results={folder}")
-    store.index.path.unlink(missing_ok=True)
     timed("combined dataset, first time", "-m", *overrides)
     timed("combined dataset, again", "-m", *overrides)
     report(count, folder)

@@ -5,15 +5,14 @@ import errno
 import os
 import resource
 import shutil
-import sqlite3
 import time
 
 import numpy as np
 import pytest
 
 from sphstudy.__main__ import main
-from sphstudy.analysis import dataset as collect
-from sphstudy.store import checkpoint_file, store
+from sphstudy.analysis import dataset
+from sphstudy.store import atomic, netcdf, store
 from sphstudy.store.checkpoint_file import CheckpointFile
 from sphstudy.store.store import Store
 from tests.support.made_up import TINY, Solver, points
@@ -66,14 +65,14 @@ def test_a_record_for_which_there_is_no_room_is_said_and_its_run_done_again(solv
 
 
 def test_one_record_without_room_costs_no_other(solver, monkeypatch, capsys):
-    real = store._to_netcdf
+    real = netcdf._to_netcdf
 
     def full(dataset, path, **how):
         if "-n7" in dataset.attrs["title"]:
             raise OSError(errno.ENOSPC, "No space left on device")
         real(dataset, path, **how)
 
-    monkeypatch.setattr(store, "_to_netcdf", full)
+    monkeypatch.setattr(netcdf, "_to_netcdf", full)
     assert main(SWEEP) == 1
     shown = capsys.readouterr()
     assert "plate-tl-h1.3-n7: its record could not be written ([Errno 28] No space left" in shown.err
@@ -103,7 +102,7 @@ def test_a_full_disk_costs_the_checkpoint_not_the_run(tmp_path, monkeypatch, cap
     def full(*_):
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr(checkpoint_file.os, "fsync", full)
+    monkeypatch.setattr(atomic.os, "fsync", full)
     keeper.save(Small())
     assert "a.checkpoint: not written ([Errno 28]" in capsys.readouterr().err
     assert (tmp_path / "a.checkpoint").read_bytes() == before
@@ -117,11 +116,7 @@ def test_a_folder_that_is_read_only_runs_nothing_and_can_be_looked_at(solver, mo
     def read_only(*_, **__):
         raise OSError(errno.EROFS, "Read-only file system")
 
-    def locked(*_, **__):
-        raise sqlite3.OperationalError("attempt to write a readonly database")
-
     monkeypatch.setattr(store.tempfile, "TemporaryFile", read_only)
-    monkeypatch.setattr("sphstudy.store.index.sqlite3.connect", locked)
     assert main([*SWEEP, "seed=1"]) == 2
     assert (
         capsys.readouterr().err
@@ -161,7 +156,6 @@ def test_a_record_that_is_deleted_while_it_is_collected_is_missing(solver, monke
     main(SWEEP)
     real = store.summarised
     path = Store("results").record_path(points("n=7")[0].config)
-    Store("results").index.path.unlink()
 
     def deleted(one):
         if one == path:
@@ -170,19 +164,18 @@ def test_a_record_that_is_deleted_while_it_is_collected_is_missing(solver, monke
 
     monkeypatch.setattr(store, "summarised", deleted)
     configs = [point.config for point in points("n=5,7")]
-    dataset, _ = collect.collect(configs, Store("results"), "x")
-    assert dataset["status"].values.ravel().tolist() == [1, 0]
+    combined = dataset.combine(configs, Store("results"))
+    assert combined["status"].values.ravel().tolist() == [1, 0]
     assert capsys.readouterr().err.count("unreadable") == 0
 
 
 def test_too_many_open_files_say_nothing_against_a_record(solver, monkeypatch, capsys):
     main(SWEEP)
-    Store("results").index.path.unlink()
 
     def too_many(_):
         raise OSError(errno.EMFILE, "Too many open files")
 
-    monkeypatch.setattr(store, "check_seal", too_many)
+    monkeypatch.setattr(store, "sealed_text", too_many)
     capsys.readouterr()
     assert main(["status"]) == 2
     assert "cannot be read now (Too many open files)" in capsys.readouterr().err
@@ -205,7 +198,7 @@ def test_a_disk_that_takes_no_dataset_is_said(solver, monkeypatch, capsys):
     def full(*_):
         raise OSError(errno.ENOSPC, "No space left on device", "x.nc")
 
-    monkeypatch.setattr(collect, "write", full)
+    monkeypatch.setattr(dataset.netcdf, "write", full)
     assert main(SWEEP) == 1
     assert (
         "sphstudy: [Errno 28] No space left on device: 'x.nc'; finished runs" in capsys.readouterr().err

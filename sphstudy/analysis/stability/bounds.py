@@ -1,4 +1,4 @@
-"""What a sound run keeps: bounds with reasons, from `conf/bounds/<scene>.yaml`.
+"""What a sound run keeps: bounds with reasons, from the file of a scene (conf/scene).
 
     source: where the case comes from
     bounds:
@@ -10,37 +10,26 @@
     quoted:                       # what others found, to be shown beside; nothing is judged by it
       - {quantity: period, units: s, between: [0.283, 0.285], source: where it is printed}
 
-`any.yaml` holds for every scene; what a scene says of the same quantity stands in its place.
+`conf/bounds.yaml` holds for every scene. What a scene says of the same quantity replaces it.
 """
 
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import yaml
 from pydantic import TypeAdapter, ValidationError
 
 from sphstudy import catalogue
 from sphstudy.analysis.stability.indicators import INDICATORS
 from sphstudy.configuration.study_file import Values, holds
-from sphstudy.errors import ConfigurationError
+from sphstudy.errors import ConfigurationError, unknown
 from sphstudy.parameters import described, number, parameters
-
-GENERAL = "any"
-"""The file of bounds that every scene has."""
 
 HISTORY = "history."
 """Begins the names of quantities that have a value at each sample."""
 
-
-@parameters
-class _Bound:
-    at_most: float | None = number("largest value of a sound run")
-    at_least: float | None = number("smallest value of a sound run")
-    where: dict[str, Values] = described("settings of the points that it is for; a list: any of these")
-    reason: str = described("why this number")
+_SECTIONS = ("source", "bounds", "quoted")
 
 
 @parameters
@@ -54,27 +43,23 @@ class Quoted:
 
 
 @parameters
-class _File:
+class _Sections:
     source: str = described("where the case comes from")
     bounds: dict[str, Any] = described("bound, or several, of each quantity")
     quoted: list[Quoted] = described("what others found")
 
 
-@dataclass(frozen=True)
+@parameters
 class Bound:
-    """An interval for a quantity: a metric, or with HISTORY in front an indicator at each sample.
+    """An interval for a quantity."""
 
-    where: settings (flat keys) of the points that it is for. source: where its file says it comes from.
-    general: whether every scene has it.
-    """
-
-    quantity: str
-    at_most: float | None
-    at_least: float | None
-    where: dict[str, Values]
-    reason: str
-    source: str
-    general: bool
+    quantity: str = described("a metric, or an indicator at each sample, with HISTORY in front")
+    at_most: float | None = number("largest value of a sound run")
+    at_least: float | None = number("smallest value of a sound run")
+    where: dict[str, Values] = described("settings of the points that it is for; a list: any of these")
+    reason: str = described("why this number")
+    source: str = described("where the case comes from")
+    general: bool = described("whether every scene has it")
 
     @property
     def indicator(self) -> str:
@@ -88,100 +73,109 @@ class Bound:
         return ", ".join(f"{words} {limit:g}" for words, limit in limits if limit is not None)
 
     def excess(self, values: np.ndarray) -> np.ndarray:
-        """How far values lie outside: negative inside, NaN where there is none."""
+        """How far values [K] lie outside [K]: negative inside, NaN where there is no value."""
         above = values - (np.inf if self.at_most is None else self.at_most)
         below = (-np.inf if self.at_least is None else self.at_least) - values
         return np.maximum(above, below)
 
 
 def for_point(scene: str, flat: dict[str, Any]) -> list[Bound]:
-    """Bounds of a point of this scene with these settings, those that every scene has last.
+    """Bounds of a point, those that every scene has last.
 
-    Raises ConfigurationError with every complaint about the files.
+    Parameters
+    ----------
+    scene : str
+        Its name.
+    flat : dict
+        The configuration of the point, with flat keys.
+
+    Raises
+    ------
+    ConfigurationError
+        With every complaint about the bounds of the scene, or about the general ones.
     """
-    return [bound for bound in of_scene(scene) if holds(bound.where, flat)]
-
-
-def of_scene(scene: str) -> list[Bound]:
-    """All bounds of a scene, whatever the settings. Raises ConfigurationError as `for_point`."""
-    own = read(scene) if _path(scene).is_file() else []
+    own = _of_scene(scene)[0]
     named = {bound.quantity for bound in own}
-    return [*own, *(bound for bound in read(GENERAL) if bound.quantity not in named)]
-
-
-def check() -> None:
-    """Raises ConfigurationError with every complaint about any file of bounds."""
-    complaints = []
-    for path in sorted(_folder().glob("*.yaml")):
-        try:
-            read(path.stem)
-        except ConfigurationError as error:
-            complaints += error.complaints
-    if complaints:
-        raise ConfigurationError(complaints)
+    both = [*own, *(bound for bound in _of_scene(None)[0] if bound.quantity not in named)]
+    return [bound for bound in both if holds(bound.where, flat)]
 
 
 def quoted(scene: str) -> list[Quoted]:
-    """What others found for a scene. Raises ConfigurationError as `read`."""
-    return _read(_path(scene))[1] if _path(scene).is_file() else []
+    """What others found for a scene. Raises ConfigurationError as `for_point`."""
+    return _of_scene(scene)[1]
 
 
-def read(name: str) -> list[Bound]:
-    """The bounds of one file. Raises ConfigurationError with every complaint, naming file and key."""
-    return _read(_path(name))[0]
+def check() -> None:
+    """Raises ConfigurationError with every complaint about the bounds of any scene."""
+    complaints = []
+    for scene in catalogue.names("scene"):
+        try:
+            for_point(scene, {})
+        except ConfigurationError as error:
+            complaints += error.complaints
+    if complaints:
+        raise ConfigurationError(list(dict.fromkeys(complaints)))
 
 
-def _path(name: str) -> Path:
-    return _folder() / f"{name}.yaml"
-
-
-def _folder() -> Path:
-    return catalogue.folder("conf") / "bounds"
+def _of_scene(scene: str | None) -> tuple[list[Bound], list[Quoted]]:
+    """Bounds of a scene or, with None, of all."""
+    # A configuration that was stored may name a scene that does not exist any more.
+    if scene is not None and scene not in catalogue.names("scene"):
+        return [], []
+    return _read(scene, tuple(catalogue.settings_folders()))
 
 
 @cache
-def _read(path: Path) -> tuple[list[Bound], list[Quoted]]:
-    complaints: list[str] = []
+def _read(scene: str | None, folders: tuple[Path, ...]) -> tuple[list[Bound], list[Quoted]]:
+    if scene is None:
+        place = "bounds.yaml"
+        sections = catalogue.read(next(p for f in folders if (p := f / place).is_file()))
+    else:
+        place, settings = f"scene/{scene}.yaml", catalogue.settings("scene", scene)
+        sections = {section: settings[section] for section in _SECTIONS if section in settings}
+        if not sections:
+            return [], []
     try:
-        values = yaml.safe_load(path.read_text(encoding="utf-8"))
-        # What is no mapping is left for the validation to refuse.
-        values = {"quoted": []} | values if isinstance(values, dict) else values
-        file = TypeAdapter(_File).validate_python(values)
-    except yaml.YAMLError as error:
-        raise ConfigurationError([f"bounds/{path.name}: {' '.join(str(error).split())}"]) from None
+        file = TypeAdapter(_Sections).validate_python({"quoted": [], **sections})
     except ValidationError as error:
-        raise ConfigurationError(_complaints(f"bounds/{path.name}", error)) from None
-    found = []
-    for quantity, given in file.bounds.items():
-        name, place = quantity.removeprefix(HISTORY), f"bounds/{path.name}: {quantity}"
-        if quantity.startswith(HISTORY) and name not in INDICATORS:
-            complaints.append(f"{place}: there is no such indicator (there are {', '.join(INDICATORS)})")
-        for one in given if isinstance(given, list) else [given]:
-            try:
-                optional: dict[str, Any] = {"at_most": None, "at_least": None, "where": {}}
-                bound = TypeAdapter(_Bound).validate_python({**optional, **one})
-            except TypeError:
-                complaints.append(f"{place}: should be a mapping with at_most or at_least, and reason")
-            except ValidationError as error:
-                complaints += _complaints(place, error)
-            else:
-                complaints += [f"{place}: {wrong}" for wrong in _wrong(bound)]
-                limits = (bound.at_most, bound.at_least, bound.where, bound.reason)
-                found.append(Bound(quantity, *limits, file.source, general=path.stem == GENERAL))
+        raise ConfigurationError(_complaints(place, error)) from None
+    complaints: list[str] = []
+    fixed = {"source": file.source, "general": scene is None}
+    given = [
+        (quantity, one)
+        for quantity, several in file.bounds.items()
+        for one in (several if isinstance(several, list) else [several])
+    ]
+    found = [
+        _bound(f"{place}: {quantity}", one, {**fixed, "quantity": quantity}, complaints)
+        for quantity, one in given
+    ]
     if complaints:
         raise ConfigurationError(complaints)
-    return found, file.quoted
+    return [bound for bound in found if bound is not None], file.quoted
 
 
-def _wrong(bound: _Bound) -> list[str]:
-    wrong = []
+def _bound(place: str, given: Any, fixed: dict[str, Any], complaints: list[str]) -> Bound | None:
+    """One bound; complaints are added."""
+    quantity = fixed["quantity"]
+    if quantity.startswith(HISTORY) and (name := quantity.removeprefix(HISTORY)) not in INDICATORS:
+        complaints.append(f"{place}: {unknown('indicator', name, INDICATORS)}")
+    if not isinstance(given, dict):
+        complaints.append(f"{place}: should be a mapping with at_most or at_least, and reason")
+        return None
+    try:
+        optional: dict[str, Any] = {"at_most": None, "at_least": None, "where": {}}
+        bound = TypeAdapter(Bound).validate_python({**optional, **given, **fixed})
+    except ValidationError as error:
+        complaints += _complaints(place, error)
+        return None
     if bound.at_most is None and bound.at_least is None:
-        wrong.append("neither at_most nor at_least")
+        complaints.append(f"{place}: neither at_most nor at_least")
     elif bound.at_most is not None and bound.at_least is not None and bound.at_most < bound.at_least:
-        wrong.append("at_most is less than at_least")
+        complaints.append(f"{place}: at_most is less than at_least")
     if not bound.reason.strip():
-        wrong.append("reason: is empty")
-    return wrong
+        complaints.append(f"{place}: reason: is empty")
+    return bound
 
 
 def _complaints(place: str, error: ValidationError) -> list[str]:

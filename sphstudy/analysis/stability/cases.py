@@ -5,10 +5,9 @@ from functools import lru_cache
 from typing import Any
 
 import pandas as pd
-import yaml
 
 from sphstudy import catalogue, text
-from sphstudy.analysis.dataset import hashable
+from sphstudy.analysis.dimensions import hashable
 from sphstudy.analysis.results import Results
 from sphstudy.analysis.stability.bounds import Bound, for_point
 from sphstudy.analysis.stability.judge import Judgement, judge
@@ -90,15 +89,8 @@ def by_place(cases: list[Case]) -> pd.DataFrame:
 def usual(config: RunConfig) -> dict[str, Any]:
     """Settings (flat keys) of method and solver that a scene has unless told otherwise."""
     scene, method, solver = config.scene.name, config.method.name, config.solve.name
-    folder = catalogue.folder("conf")
-    found = flattened({"method": _read(folder / "method" / f"{method}.yaml")})
-    found |= flattened({"solve": _read(folder / "solve" / f"{solver}.yaml")})
-    protocol = folder / "protocol" / f"{scene}_{method}_{solver}.yaml"
-    return found | flattened(_read(protocol)) if protocol.is_file() else found
-
-
-def _read(path: Any) -> dict[str, Any]:
-    return yaml.safe_load(path.read_text(encoding="utf-8")) or {}
+    found = {"method": catalogue.settings("method", method), "solve": catalogue.settings("solve", solver)}
+    return flattened(catalogue.merged(found, catalogue.protocol(scene, method, solver)))
 
 
 def _variant(config: RunConfig, own: dict[str, Any], of_scene: list[dict], of_method: list[dict]) -> str:

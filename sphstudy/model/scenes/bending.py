@@ -7,19 +7,7 @@ from sphstudy.model.problem import Problem, Stage
 from sphstudy.model.scenes.plate import PlateParameters, check, end_particle, particles, plate_body
 from sphstudy.parameters import number, parameters
 
-__all__ = ["HEADLINE", "METRICS", "Parameters", "build", "check", "particles"]
-
-METRICS = ("bending", "roughness", "regularity", "equilibrium", "balance")
-HEADLINE = (
-    "end_angle",
-    "end_angle_error",
-    "centreline_error_max",
-    "centreline_error_rms",
-    "centreline_roughness_end",
-    "spacing_spread_bottom",
-    "equilibrium_ratio",
-    "smallest_spacing",
-)
+__all__ = ["Parameters", "build", "check", "particles"]
 
 
 @parameters

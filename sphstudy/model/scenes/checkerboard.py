@@ -16,10 +16,7 @@ from sphstudy.model.scenes import spin
 from sphstudy.model.scenes.spin import SquareParameters, particles, square_body
 from sphstudy.parameters import number, parameters
 
-__all__ = ["HEADLINE", "METRICS", "Parameters", "build", "check", "particles", "pattern"]
-
-METRICS = ("checkerboard", "balance")
-HEADLINE = ("restoring_ratio", "work_ratio", "external_work")
+__all__ = ["Parameters", "build", "check", "particles", "pattern"]
 
 
 @parameters

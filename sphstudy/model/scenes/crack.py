@@ -16,22 +16,6 @@ from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import count, described, number, parameters
 
-METRICS = ("fracture", "stress_intensity", "norms", "symmetry", "equilibrium", "balance")
-HEADLINE = (
-    "G1_error",
-    "G2_error",
-    "G2_error_free",
-    "K_I_error",
-    "K_II_error",
-    "K_I_integral_error",
-    "K_II_integral_error",
-    "J_error",
-    "u_x_rms",
-    "u_y_rms",
-    "stress_yy_parity_defect_ahead",
-    "equilibrium_ratio",
-)
-
 
 @parameters
 class Parameters(SolidParameters):

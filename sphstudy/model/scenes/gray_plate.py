@@ -16,17 +16,6 @@ from sphstudy.model.problem import Body, Problem
 from sphstudy.model.scenes.plate import SlabParameters, slab, vibrating
 from sphstudy.parameters import described, number, parameters
 
-METRICS = ("swings", "period", "regularity", "balance")
-HEADLINE = (
-    "period",
-    "period_error_2d",
-    "period_error_thin_plate",
-    "amplitude_error",
-    "amplitude_loss_per_period",
-    "energy_drift",
-    "smallest_spacing",
-)
-
 
 @parameters
 class Parameters(SlabParameters):

@@ -15,15 +15,6 @@ from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.model.scenes.tension import held, noise
 from sphstudy.parameters import count, described, number, parameters
 
-METRICS = ("patch", "equilibrium", "balance")
-HEADLINE = (
-    "displacement_error",
-    "displacement_error_rms",
-    "strain_error",
-    "strain_error_rms",
-    "equilibrium_ratio",
-)
-
 
 @parameters
 class Parameters(SolidParameters):

@@ -12,17 +12,6 @@ from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import count, described, number, parameters
 
-METRICS = ("oscillation", "roughness", "regularity", "balance")
-HEADLINE = (
-    "frequency_error",
-    "frequency_error_2d",
-    "amplitude_error",
-    "amplitude_frequency_product",
-    "decay_rate",
-    "fit_residual",
-    "stress_roughness_bottom",
-)
-
 
 @parameters
 class SlabParameters(SolidParameters):

@@ -13,13 +13,10 @@ import numpy as np
 from sphstudy.model.constraints import Constraints
 from sphstudy.model.material import Material
 from sphstudy.model.problem import Body, Problem, lattice
-from sphstudy.model.scenes.tension import STRETCHED, StretchedParameters, held, noise, strain_complaint
+from sphstudy.model.scenes.tension import StretchedParameters, held, noise, strain_complaint
 from sphstudy.parameters import count, number, parameters
 
-__all__ = ["HEADLINE", "METRICS", "Parameters", "build", "check", "particles"]
-
-METRICS = ("equibiaxial_stress", "stretched", "equilibrium", "balance")
-HEADLINE = STRETCHED
+__all__ = ["Parameters", "build", "check", "particles"]
 
 
 @parameters

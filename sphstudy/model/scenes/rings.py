@@ -14,16 +14,6 @@ from sphstudy.model.problem import Body, Problem, Stage
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import count, described, number, parameters
 
-METRICS = ("collision", "balance")
-HEADLINE = (
-    "rebound",
-    "broken_bonds",
-    "longest_bond",
-    "mirror_defect",
-    "energy_drift",
-    "smallest_spacing",
-)
-
 
 @parameters
 class Parameters(SolidParameters):

@@ -18,17 +18,6 @@ from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import count, described, number, parameters
 
-METRICS = ("sharp", "balance")
-HEADLINE = (
-    "velocity_error",
-    "stress_overshoot",
-    "plateau_noise",
-    "front_lag",
-    "offset_left",
-    "hourglass_left",
-    "energy_drift",
-)
-
 
 @parameters
 class Parameters(SolidParameters):

@@ -15,16 +15,6 @@ from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import described, number, parameters
 
-METRICS = ("rotation", "balance")
-HEADLINE = (
-    "angular_momentum_drift",
-    "energy_drift",
-    "rate_error",
-    "corner_stretch_largest",
-    "fourfold_defect",
-    "smallest_spacing",
-)
-
 
 @parameters
 class SquareParameters(SolidParameters):

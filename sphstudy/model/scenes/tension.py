@@ -15,21 +15,6 @@ from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import count, described, number, parameters
 
-METRICS = ("uniaxial_stress", "stretched", "equilibrium", "balance")
-STRETCHED = (
-    "stress_share_load",
-    "stress_share",
-    "stress_spread",
-    "spacing_smallest",
-    "spacing_spread",
-    "gap_largest",
-    "gaps_open",
-    "torn",
-)
-"""Metrics of any stretched body."""
-
-HEADLINE = (*STRETCHED, "stress_share_section")
-
 
 @parameters
 class StretchedParameters(SolidParameters):

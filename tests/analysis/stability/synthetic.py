@@ -10,7 +10,8 @@ from sphstudy.analysis import results
 from sphstudy.metrics.metric import Metric
 from sphstudy.numerics.solvers.solution import FIELDS, HISTORY, LAST_GOOD
 from sphstudy.store import identity, record
-from sphstudy.store.store import Store, write
+from sphstudy.store.netcdf import write
+from sphstudy.store.store import Store
 
 SAMPLES = 11
 MASS = np.array((1.0, 3.0))

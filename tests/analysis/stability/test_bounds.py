@@ -5,7 +5,7 @@ import pytest
 
 from sphstudy import catalogue
 from sphstudy.analysis.stability import bounds
-from sphstudy.analysis.stability.bounds import Bound, for_point, read
+from sphstudy.analysis.stability.bounds import Bound, for_point
 from sphstudy.analysis.stability.indicators import INDICATORS
 from sphstudy.errors import ConfigurationError
 
@@ -14,23 +14,26 @@ GOOD = "source: a paper\nbounds:\n  rebound: {at_least: 0.4, at_most: 1, reason:
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    # Read once a path: each test has its own.
-    monkeypatch.setattr(bounds, "_folder", lambda: tmp_path)
-    return tmp_path
+    """Scenes of a user's, before the package's."""
+    (tmp_path / "scene").mkdir()
+    monkeypatch.setenv("SPHSTUDY_CONFIG_DIR", str(tmp_path))
+    return tmp_path / "scene"
 
 
 def bound(**limits):
-    return Bound(
-        "q", **{"at_most": None, "at_least": None} | limits, where={}, reason="", source="", general=False
-    )
+    given = {"at_most": None, "at_least": None} | limits
+    return Bound(quantity="q", **given, where={}, reason="", source="", general=False)
 
 
-@pytest.mark.parametrize(
-    "path", sorted((catalogue.folder("conf") / "bounds").glob("*.yaml")), ids=lambda p: p.stem
-)
-def test_all_files_are_sound_and_name_a_scene(path):
-    assert read(path.stem)
-    assert path.stem == bounds.GENERAL or (catalogue.folder("conf") / "scene" / path.name).is_file()
+@pytest.mark.parametrize("scene", catalogue.names("scene"))
+def test_bounds_of_all_scenes_are_sound(scene):
+    assert [b.quantity for b in for_point(scene, {}) if b.general]
+    own = [b for b in for_point(scene, {}) if not b.general]
+    assert bool(own) == ("bounds" in catalogue.settings("scene", scene))
+
+
+def test_a_scene_without_bounds_or_a_file_has_the_general_ones():
+    assert all(b.general for scene in ("plate", "gone") for b in for_point(scene, {}))
 
 
 @pytest.mark.parametrize(
@@ -38,7 +41,6 @@ def test_all_files_are_sound_and_name_a_scene(path):
     [
         ("bounds: {}\n", "source: "),
         ("source: s\n", "bounds: "),
-        ("source: s\nbounds: {}\nextra: 1\n", "extra: "),
         (
             "source: s\nbounds: {}\nquoted: [{quantity: a, units: s, between: [1], source: b}]\n",
             "quoted.0.between",
@@ -47,7 +49,7 @@ def test_all_files_are_sound_and_name_a_scene(path):
         ("", "dictionary"),
         (
             "source: s\nbounds: {history.sped: {at_most: 1, reason: r}}\n",
-            "history.sped: there is no such",
+            "history.sped: unknown indicator 'sped'; did you mean 'speed'?",
         ),
         ("source: s\nbounds: {a: {at_most: 1}}\n", "a: reason: "),
         ("source: s\nbounds: {a: {at_most: 1, reason: ' '}}\n", "a: reason: is empty"),
@@ -63,35 +65,45 @@ def test_all_files_are_sound_and_name_a_scene(path):
 def test_a_wrong_file_is_refused_by_file_and_key(text, complaint, folder):
     (folder / "rings.yaml").write_text(text)
     with pytest.raises(ConfigurationError) as raised:
-        read("rings")
+        for_point("rings", {})
     (said,) = raised.value.complaints
-    assert said.startswith("bounds/rings.yaml: ")
+    assert said.startswith("scene/rings.yaml: ")
     assert complaint in said
 
 
 def test_every_complaint_is_made_at_once(folder):
     (folder / "rings.yaml").write_text("source: s\nbounds: {a: {at_most: 1}, history.b: {reason: r}}\n")
     with pytest.raises(ConfigurationError) as raised:
-        read("rings")
+        for_point("rings", {})
     assert len(raised.value.complaints) == 3
 
 
 def test_all_files_are_checked_together(folder):
-    (folder / "any.yaml").write_text(GOOD)
     bounds.check()
-    for name in ("plate", "rings"):
+    for name in ("one", "two"):
         (folder / f"{name}.yaml").write_text("source: s\n")
     with pytest.raises(ConfigurationError) as raised:
         bounds.check()
     assert [c.partition(":")[0] for c in raised.value.complaints] == [
-        "bounds/plate.yaml",
-        "bounds/rings.yaml",
+        "scene/one.yaml",
+        "scene/two.yaml",
     ]
+
+
+def test_a_scene_inherits_bounds_and_replaces_them_quantity_by_quantity(folder):
+    (folder / "parent.yaml").write_text(GOOD + "  torn: {at_most: 0, reason: r}\n")
+    (folder / "child.yaml").write_text(
+        "defaults: [parent, _self_]\nbounds:\n  rebound: {at_least: 0.2, reason: softer}\n"
+    )
+    own = {b.quantity: b for b in for_point("child", {}) if not b.general}
+    assert list(own) == ["rebound", "torn"]
+    assert (own["rebound"].at_least, own["rebound"].at_most) == (0.2, None)
+    assert own["rebound"].source == "a paper"
 
 
 def test_a_scene_adds_to_the_general_bounds_and_replaces_them(folder):
     general = "history.speed: {at_most: 1, reason: c0}, rebound: {at_most: 9, reason: r}"
-    (folder / "any.yaml").write_text(f"source: g\nbounds: {{{general}}}\n")
+    (folder.parent / "bounds.yaml").write_text(f"source: g\nbounds: {{{general}}}\n")
     (folder / "rings.yaml").write_text(GOOD)
     rings, other = for_point("rings", {}), for_point("plate", {})
     assert [(b.quantity, b.at_most, b.general) for b in rings] == [
@@ -108,7 +120,7 @@ def test_a_scene_adds_to_the_general_bounds_and_replaces_them(folder):
 
 
 def test_a_bound_may_be_for_some_points_only(folder):
-    (folder / "any.yaml").write_text("source: g\nbounds: {}\n")
+    (folder.parent / "bounds.yaml").write_text("source: g\nbounds: {}\n")
     (folder / "rings.yaml").write_text(
         "source: s\nbounds:\n  error:\n    - {where: {n: [5, 10]}, at_most: 0.013, reason: r}\n"
         "    - {where: {n: 20, method: tl}, at_most: 0.003, reason: r}\n"
@@ -128,7 +140,7 @@ def test_excess_is_the_distance_outside():
 
 
 def test_what_others_found_is_read(folder):
-    assert bounds.quoted("rings") == []
+    assert bounds.quoted("plate") == []
     said = "{quantity: period, units: s, between: [0.283, 0.285], source: a paper}"
     (folder / "rings.yaml").write_text(f"{GOOD}quoted: [{said}]\n")
     (one,) = bounds.quoted("rings")

@@ -19,7 +19,8 @@ def config():
 
 
 def bound(quantity, at_most=None, at_least=None):
-    return Bound(quantity, at_most, at_least, {}, "r", "s", general=False)
+    limits = {"at_most": at_most, "at_least": at_least}
+    return Bound(quantity=quantity, **limits, where={}, reason="r", source="s", general=False)
 
 
 SPACING, SPEED = bound("history.smallest_spacing", at_least=0.5), bound("history.speed", at_most=1.0)

@@ -17,7 +17,7 @@ from sphstudy.benchmarks.peers.launch import Outcome, launch
 from sphstudy.benchmarks.peers.limit import NoLimit, stability_limit
 from sphstudy.benchmarks.peers.plate import plate
 from sphstudy.benchmarks.peers.show import draw, print_table
-from sphstudy.store.store import write
+from sphstudy.store.netcdf import write
 
 PEER = PEERS["skfem"]
 

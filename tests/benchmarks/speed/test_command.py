@@ -5,7 +5,7 @@ import pytest
 from sphstudy.__main__ import main
 from sphstudy.benchmarks.speed import measurements as parts
 from sphstudy.benchmarks.speed.settings import PARTS, chosen
-from sphstudy.store.store import read_dataset
+from sphstudy.store.netcdf import read_dataset
 from tests.benchmarks.speed.synthetic import measurements
 
 

@@ -14,7 +14,7 @@ from sphstudy.benchmarks.speed.measurements import Measurements
 from sphstudy.benchmarks.speed.settings import Settings
 from sphstudy.benchmarks.speed.tables import print_tables
 from sphstudy.benchmarks.speed.terms import term_costs
-from sphstudy.store.store import read_dataset, write
+from sphstudy.store.netcdf import read_dataset, write
 from tests.benchmarks.speed.synthetic import measurements, rate
 
 

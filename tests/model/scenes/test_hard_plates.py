@@ -1,7 +1,6 @@
 """Reduced runs of the hard plates: what keeps its bounds, and what does not."""
 
 import pytest
-import yaml
 
 import sphstudy
 from sphstudy import catalogue
@@ -16,8 +15,7 @@ def folder(tmp_path_factory):
 
 def outside(run, scene):
     """Bounds of the scene on metrics that a record does not keep."""
-    path = catalogue.folder("conf") / "bounds" / f"{scene}.yaml"
-    bounds = yaml.safe_load(path.read_text(encoding="utf-8"))["bounds"]
+    bounds = catalogue.settings("scene", scene)["bounds"]
     low, high = float("-inf"), float("inf")
     return {
         name

@@ -1,4 +1,4 @@
-"""A study beside its stored reference or the thesis, or two datasets.
+"""A study beside its reference or the thesis, or two datasets.
 
     sphstudy compare STUDY [printed] [options]
     sphstudy compare FILE FILE [options]

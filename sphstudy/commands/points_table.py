@@ -6,13 +6,10 @@ import xarray as xr
 
 from sphstudy.analysis.cells import Cell, cells, shown
 from sphstudy.catalogue import headline
-from sphstudy.console import print_table
+from sphstudy.console import LONGEST, print_table
 from sphstudy.store.record import STATUS
 from sphstudy.table import Column, Table
 from sphstudy.text import number
-
-LONGEST = 400
-"""Rows of a table that are printed; of more points, only those that are not done."""
 
 _UNDONE = ("missing", "interrupted", "running")
 

@@ -17,10 +17,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from sphstudy.commands.parser import Request
-from sphstudy.commands.points_table import LONGEST
 from sphstudy.configuration.composition import session
 from sphstudy.configuration.study_points import all_points
-from sphstudy.console import print_table
+from sphstudy.console import LONGEST, print_table
 from sphstudy.errors import ConfigurationError
 from sphstudy.running.plan import plan
 from sphstudy.store.lock import Holder, holder, is_alive

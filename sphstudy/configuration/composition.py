@@ -37,7 +37,7 @@ LAUNCHERS = ("local", "basic", "slurm")
 """Side by side on this machine, one after the other in this process, jobs of a SLURM cluster."""
 
 _GROUPS = ("scene", "method", "solve")
-SECTIONS = ("metrics", "headline", "protocol", "source", "bounds", "quoted")
+SECTIONS = ("title", "metrics", "headline", "protocol", "source", "bounds", "quoted")
 """Sections of a scene's file that are no settings of a run: the catalogue reads them."""
 
 
@@ -210,12 +210,7 @@ class Session:
             raise ConfigurationError(
                 [f"hydra.launcher.n_jobs={jobs}: should be a whole number above 0, or -1: one per core"]
             )
-        name = config.hydra.runtime.choices["hydra/launcher"]
-        if name == "slurm":
-            from sphstudy.running.slurm.settings import settings_of
-
-            settings_of(settings)
-        return Launcher(name, settings)
+        return Launcher(config.hydra.runtime.choices["hydra/launcher"], settings)
 
     def _grid(self, arguments: list[str], sweep: bool) -> list[tuple[str, ...]]:
         """The points that overrides span, those of a launcher and of the search path taken out."""

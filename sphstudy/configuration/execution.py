@@ -15,10 +15,14 @@ class Execution:
     threads: int = count("threads of one run", ge=1)
     time_limit: float | None = number("wall time of a run, after which it ends as timeout", "s", gt=0)
     memory_limit: float | None = number("memory of a run, beyond which it ends as failed", "GiB", gt=0)
-    known: int = count("stamp of the record that the sweep found, set by the program itself", ge=0)
 
 
-SETTINGS = ("results", "retry", "checkpoint", "threads", "time_limit", "memory_limit", "known")
+GRACE = 120.0
+"""Seconds beyond its time limit after which a run that has not ended itself is ended: the start of its
+process and compilation do not count against the limit.
+"""
+
+SETTINGS = ("results", "retry", "checkpoint", "threads", "time_limit", "memory_limit")
 """Top-level keys that are no part of what a run is."""
 
 RETRIES = ("none", "failed", "timeout", "all")
@@ -44,3 +48,9 @@ def taken(composed: dict[str, Any]) -> Execution:
     if complaints:
         raise ConfigurationError(complaints)
     return found
+
+
+def thread_settings(count: int) -> dict[str, str]:
+    """The environment of a process that may use `count` threads; libraries read it as they load."""
+    names = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+    return dict.fromkeys(names, str(count))

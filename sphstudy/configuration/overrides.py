@@ -98,8 +98,6 @@ class Grammar:
             yield f"{line}: write key=value; keys cannot be added, deleted or moved"
         elif "${" in line:
             yield f"{line}: interpolations are not taken from the command line"
-        elif key == "known":
-            yield f"{line}: set by the program itself"
         elif key in _NAMES:
             yield f"{line}: the name is that of the file; {key.partition('.')[0]}=NAME chooses another"
         elif key.startswith("hydra"):

@@ -1,7 +1,7 @@
-"""The whole truth of a run: one frozen dataclass, validated from what Hydra composed.
+"""The settings of a run: one frozen dataclass, validated from a plain dictionary.
 
-Scenes and methods are found by the `kind` in their YAML file (catalogue.py); the `Parameters` of their
-modules declare types, ranges and meanings.
+`kind` in the file of a scene or method names its module (catalogue.py), whose `Parameters` declare types,
+ranges and meanings.
 """
 
 import json
@@ -9,7 +9,6 @@ import os
 import re
 from collections.abc import Iterator
 from functools import cache, cached_property
-from types import ModuleType
 from typing import Any
 
 from sphstudy.catalogue import method_module, scene_module, solver_module
@@ -28,7 +27,7 @@ class Record:
 
 @parameters
 class RunConfig:
-    """One run. `scene`, `method` and `solve` are the Parameters of their modules."""
+    """What determines the numbers of a run; scene, method, solver are Parameters of their modules."""
 
     scene: Any = described("what is simulated")
     method: Any = described("how it is discretised")
@@ -39,16 +38,16 @@ class RunConfig:
     record: Record = described("what is kept")
 
     def as_dict(self) -> dict[str, Any]:
-        """Nested plain dictionary: the resolved configuration as it is stored and hashed."""
+        """The configuration as nested plain dictionaries, as it is stored and hashed."""
         return {key: dict(v) if isinstance(v, dict) else v for key, v in self._plain.items()}
 
     @cached_property
     def text(self) -> str:
-        """The same as JSON, always the same text for the same run."""
+        """The configuration as JSON: the same text for the same run."""
         return json.dumps(self._plain, sort_keys=True)
 
     def flat(self) -> dict[str, Any]:
-        """As dictionary with dotted keys; `scene`, `method`, `solve` stand for their names."""
+        """The configuration as `flattened` has it."""
         return flattened(self._plain)
 
     @cached_property
@@ -60,7 +59,7 @@ class RunConfig:
 
     @property
     def label(self) -> str:
-        """Short name for people: scene, method, h and n."""
+        """A name for people: scene, method, h and n."""
         return f"{self.scene.name}-{self.method.name}-h{self.h:g}-n{self.n}"
 
 
@@ -72,7 +71,13 @@ def timeless(config: RunConfig) -> Iterator[str]:
 
 
 def flattened(nested: dict[str, Any]) -> dict[str, Any]:
-    """A configuration with dotted keys; `scene`, `method`, `solve` stand for their names."""
+    """A configuration with dotted keys, in which `scene`, `method` and `solve` stand for their names.
+
+    Parameters
+    ----------
+    nested : dict
+        The configuration as `RunConfig.as_dict` returns it.
+    """
     flat: dict[str, Any] = {}
     for key, value in nested.items():
         if isinstance(value, dict):
@@ -89,13 +94,20 @@ def _adapter_of(value: Any) -> Any:
 
 
 def validate(composed: dict[str, Any]) -> RunConfig:
-    """The configuration of a run from the plain dictionary that Hydra composed.
+    """The configuration of a run from plain dictionaries.
 
-    Raises ConfigurationError with every complaint: types, ranges, unknown keys, fit of scene, method
-    and resolution, and memory.
+    Parameters
+    ----------
+    composed : dict
+        As Hydra composes it, or as `RunConfig.as_dict` returns it.
+
+    Raises
+    ------
+    ConfigurationError
+        With every complaint about types, ranges and unknown keys; if there are none, with every complaint
+        about the fit of scene, method, solver and resolution, and about memory.
     """
     complaints: list[str] = []
-    parts: dict[str, Any] = {}
     try:
         modules = {
             "scene": scene_module(composed["scene"]["kind"]),
@@ -106,14 +118,16 @@ def validate(composed: dict[str, Any]) -> RunConfig:
         rest = {key: composed[key] for key in ("h", "n", "seed", "record")}
     except (KeyError, TypeError) as error:
         raise ConfigurationError([f"not the configuration of a run ({error})"]) from None
-    # They are part of names of files.
+    # Files are called after them.
     complaints += [
         f"name={name}: should be up to 40 letters, digits and _ + - only"
         for name in names
         if not (isinstance(name, str) and re.fullmatch(r"[\w+-]{1,40}", name))
     ]
-    for part, module in modules.items():
-        parts[part] = checked(module.Parameters, composed[part], f"{part}.", complaints)
+    parts = {
+        part: checked(module.Parameters, composed[part], f"{part}.", complaints)
+        for part, module in modules.items()
+    }
     config = checked(RunConfig, {**parts, **rest}, "", complaints)
     if complaints:
         raise ConfigurationError(complaints)
@@ -122,22 +136,15 @@ def validate(composed: dict[str, Any]) -> RunConfig:
     if config.solve.name not in modules["method"].SOLVERS:
         offered = ", ".join(modules["method"].SOLVERS)
         complaints.append(f"solve={config.solve.name}: method {config.method.name} takes {offered}")
-    complaints += _memory_complaint(config, modules["scene"], modules["method"])
+    particles = modules["scene"].particles(config)
+    if (needed := modules["method"].memory(particles, config)) > (there := _memory_of_machine()):
+        complaints.append(
+            f"n={config.n}: {particles:,} particles need about {_size(needed)} of memory, "
+            f"this machine has {_size(there)}"
+        )
     if complaints:
         raise ConfigurationError(complaints)
     return config
-
-
-def _memory_complaint(config: RunConfig, scene: ModuleType, method: ModuleType) -> list[str]:
-    particles = scene.particles(config)
-    needed = method.memory(particles, config)
-    there = _memory_of_machine()
-    if needed <= there:
-        return []
-    return [
-        f"n={config.n}: {particles:,} particles need about {_size(needed)} of memory, "
-        f"this machine has {_size(there)}"
-    ]
 
 
 @cache

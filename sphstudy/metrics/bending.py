@@ -4,21 +4,30 @@ import numpy as np
 import xarray as xr
 from scipy.interpolate import make_interp_spline
 
-from sphstudy.metrics.metric import Metric, snapshot
+from sphstudy.metrics.metric import Metric, pure, snapshot
 from sphstudy.metrics.roughness import deviation
 from sphstudy.model.exact import beam
 from sphstudy.model.exact.elasticity2d import bent_plate
-from sphstudy.model.material import Material
 
 WALL, END = 0.15, 0.9
 """Figures 4.7a and 4.7b show boundary effects for x0 < WALL and x0 > END, in lengths of the plate."""
 
 
 def column_angle(x: np.ndarray, y: np.ndarray) -> float:
-    """Rotation (rad, positive anticlockwise) of an upright column of particles at x, y [M] (m).
+    """Rotation of an upright column of particles.
 
     A line is fitted x on y, which is regular when the column is upright; the thesis's (3.5), y on x,
     gives the same angle modulo π and with the other sign.
+
+    Parameters
+    ----------
+    x, y : array [M]
+        Positions (m).
+
+    Returns
+    -------
+    float
+        Angle (rad), positive anticlockwise.
     """
     return float(-np.arctan(np.polyfit(y, x, 1)[0]))
 
@@ -26,10 +35,16 @@ def column_angle(x: np.ndarray, y: np.ndarray) -> float:
 def boundary_roughness(x0: np.ndarray, error: np.ndarray, length: float) -> dict[str, Metric]:
     """Largest jag of the centreline near the wall, near the end, and between the two.
 
-    x0, error [M] (m): particles of the centreline in order and what u_y has beyond a smooth curve. A
-    jag is the error's deviation from the mean of its two neighbours: of second order in the spacing on
+    A jag is the error's deviation from the mean of its two neighbours: of second order in the spacing on
     a smooth curve, however wrong, and as large as the error where that goes up and down from particle
     to particle. A part without particles is left out.
+
+    Parameters
+    ----------
+    x0, error : array [M]
+        Particles of the centreline in order, and their u_y less that of a smooth curve (m).
+    length : float
+        Length of the plate (m).
     """
     jag, at = np.abs(deviation(error[None])[0]), x0[1:-1] / length
     parts = (
@@ -48,10 +63,8 @@ def boundary_roughness(x0: np.ndarray, error: np.ndarray, length: float) -> dict
 
 def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     """Metrics of the bent plate at the end of settling (thesis 3.2, 4.2)."""
-    scene = config.scene
-    height, deflection = scene.L / scene.slenderness, scene.deflection * scene.L
-    spacing = float(run["spacing_x"])
-    state = snapshot(run, "settle")
+    scene, state = config.scene, snapshot(run, "settle")
+    deflection, spacing = scene.deflection * scene.L, float(run["spacing_x"])
     end, centre = run["tag_end"].values == 1, run["tag_centreline"].values == 1
     x0 = run["reference_x"].values[centre]
     u_y = (state["y"] - run["reference_y"]).values[centre]
@@ -60,8 +73,7 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     error = u_y - beam.bent_centreline(x0, deflection, scene.L, spacing)
     # The particles that are driven stand at L - Δx/2: that is where the body's end is moved.
     length = float(run["reference_x"].max())
-    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
-    plate = bent_plate(length, height, material, deflection)
+    plate = bent_plate(length, scene.height, scene.material, deflection)
     error_2d = u_y - make_interp_spline(plate.x, plate.u_y)(x0)
     energy = float(state["snapshot_strain_energy"])
     degrees = "degree"
@@ -84,9 +96,8 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
         "centreline_error_2d": Metric(
             np.abs(error_2d).max(), "m", "largest error of u_y on the centreline against 2-D elasticity"
         ),
-        "bending_energy_error": Metric(
+        "bending_energy_error": pure(
             energy / plate.strain_energy.value - 1.0,
-            "1",
             "relative error of the strain energy against 2-D elasticity",
         ),
         "bending_energy_2d_uncertainty": Metric(

@@ -3,10 +3,8 @@
 import numpy as np
 import xarray as xr
 
-from sphstudy.metrics.metric import Metric
+from sphstudy.metrics.metric import Metric, pure
 from sphstudy.model.exact.waves import checkerboard_stiffness
-from sphstudy.model.material import Material
-from sphstudy.model.scenes.checkerboard import pattern
 
 
 def measure(run: xr.Dataset, config) -> dict[str, Metric]:
@@ -14,10 +12,9 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
 
     At the end of loading: the power of the constraints over their rate is Σ F · target.
     """
-    scene = config.scene
-    target = scene.amplitude * float(run["spacing_x"]) * pattern(config.n)
+    target = config.scene.displacements(config.n)
     squares = float(target @ target)
-    physical = checkerboard_stiffness(Material(scene.E, scene.nu, scene.rho, scene.plane))
+    physical = checkerboard_stiffness(config.scene.material)
     duration = float(run["steps_load"]) * float(run["time_step"])
     found = float(run["history_constraint_power"].values[-1]) * duration / squares
     time, power = run["history_time"].values, run["history_constraint_power"].values
@@ -25,8 +22,8 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     return {
         "restoring_stiffness": Metric(found, "Pa", "force per displacement and thickness on a particle"),
         "physical_stiffness": Metric(physical, "Pa", "the same in the solid, for the same plane wave"),
-        "restoring_ratio": Metric(found / physical, "1", "restoring force over that of the solid"),
-        "work_ratio": Metric(
-            work / (0.5 * physical * squares), "1", "work of loading over that done on the solid"
+        "restoring_ratio": pure(found / physical, "restoring force over that of the solid"),
+        "work_ratio": pure(
+            work / (0.5 * physical * squares), "work of loading over that done on the solid"
         ),
     }

@@ -3,13 +3,12 @@
 import numpy as np
 import xarray as xr
 
-from sphstudy.metrics.metric import Metric
+from sphstudy.metrics.metric import Metric, pure
 
 
 def measure(run: xr.Dataset, config) -> dict[str, Metric]:
-    """Ratio of √Σv² at the end of settling to its value at the end of loading, and steps to reach it.
-
-    Nothing of a run that knew no time: nothing moved.
+    """√Σv² at the end of settling over its value at the end of loading, and the steps until the solver's
+    ratio was reached; of a run that knew no time, nothing.
     """
     if float(run["time_step"]) == 0.0:
         return {}
@@ -26,14 +25,14 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     reached = np.flatnonzero(ratio <= threshold)
     steps = step[after][reached[0]] - loaded if reached.size else np.nan
     return {
-        "equilibrium_ratio": Metric(
-            at_rest / at_load, "1", "√Σv² at the end of settling over its value after loading"
+        "equilibrium_ratio": pure(
+            at_rest / at_load, "√Σv² at the end of settling over its value after loading"
         ),
-        "equilibrium_reached": Metric(
-            float(at_rest / at_load <= threshold), "1", f"1 if that ratio is at most {threshold:g}"
+        "equilibrium_reached": pure(
+            at_rest / at_load <= threshold, f"1 if that ratio is at most {threshold:g}"
         ),
-        "equilibrium_steps": Metric(
-            steps, "1", f"steps after loading until the ratio first fell to {threshold:g}"
+        "equilibrium_steps": pure(
+            steps, f"steps after loading until the ratio first fell to {threshold:g}"
         ),
     }
 

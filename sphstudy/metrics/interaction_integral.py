@@ -39,10 +39,16 @@ class Annulus(NamedTuple):
 
 
 def fits(annulus: Annulus, clearance: float, edge: float) -> str:
-    """Why the annulus cannot be used, in one sentence; "" if it can.
+    """Why an annulus cannot be used, in one sentence; "" if it can.
 
-    clearance (m): radius of the kernel's support, nearer than which a particle has the tip inside it.
-    edge (m): distance from the tip to the cell of the nearest driven particle.
+    Parameters
+    ----------
+    annulus : Annulus
+        The annulus.
+    clearance : float
+        Radius of the kernel's support (m): a particle nearer to the tip has the tip inside its support.
+    edge : float
+        Distance from the tip to the cell of the nearest driven particle (m).
     """
     inner, outer = annulus
     if not outer > inner:
@@ -57,12 +63,26 @@ def fits(annulus: Annulus, clearance: float, edge: float) -> str:
 def weight_gradient(
     x: np.ndarray, y: np.ndarray, annulus: Annulus, tip_x: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """∂q/∂x, ∂q/∂y [1/m] at x, y [M] (m); zero outside the annulus.
+    """Gradient of the weight q, zero outside the annulus.
 
     q is one minus the smoothstep of ninth order, of slope 630 s⁴ (1-s)⁴ with s from 0 to 1 across the
     annulus. The more derivatives vanish at its ends the better the quadrature, until the slope becomes
     too narrow. Largest relative error left in K by annuli from 12 (6) spacings wide upwards: fifth order
     7e-5 (7e-4), seventh 2e-5 (3e-4), ninth 3e-6 (1e-4), bump exp(-1/(s(1-s))) 8e-6 (6e-4).
+
+    Parameters
+    ----------
+    x, y : array [M]
+        Reference positions (m).
+    annulus : Annulus
+        Where q falls from one to zero.
+    tip_x : float
+        x of the tip (m), whose y is 0.
+
+    Returns
+    -------
+    tuple of array [M]
+        ∂q/∂x and ∂q/∂y (1/m).
     """
     r = np.hypot(x - tip_x, y)
     width = annulus.outer - annulus.inner
@@ -83,11 +103,34 @@ def stress_intensities(
     E: float,
     nu: float,
 ) -> tuple[float, float]:
-    """K_I, K_II [Pa √m] by interaction integrals with Williams' modes of K = 1 Pa √m.
+    """K_I and K_II by interaction integrals with Williams' modes of K = 1 Pa √m.
 
-    x, y [M] (m); volume [M]: areas (m²); P [4, M]: first Piola–Kirchhoff stress (Pa); H [4, M]:
-    displacement gradient; Young's modulus E (Pa), Poisson's ratio nu. Raises ValueError if there are no
-    particles in the annulus.
+    Parameters
+    ----------
+    x, y : array [M]
+        Reference positions (m).
+    volume : array [M]
+        Areas of the particles in the reference configuration (m²).
+    P : array [4, M]
+        First Piola–Kirchhoff stress (Pa).
+    H : array [4, M]
+        Displacement gradient.
+    annulus : Annulus
+        Where the integrals are taken.
+    tip_x : float
+        x of the tip (m), whose y is 0.
+    E, nu : float
+        Young's modulus (Pa) and Poisson's ratio.
+
+    Returns
+    -------
+    tuple of float
+        K_I and K_II (Pa √m).
+
+    Raises
+    ------
+    ValueError
+        If there are no particles in the annulus.
     """
     chosen = _particles_in(annulus, x, y, tip_x)
     x, y, volume, P, H = x[chosen], y[chosen], volume[chosen], P[:, chosen], H[:, chosen]
@@ -109,9 +152,24 @@ def j_integral(
     annulus: Annulus,
     tip_x: float,
 ) -> float:
-    """J [J/m²], which is (K_I² + K_II²)/E; psi [M]: energy density (J/m³), the others as above.
+    """J, which is (K_I² + K_II²)/E under small strain.
 
-    Raises ValueError if there are no particles in the annulus.
+    Parameters
+    ----------
+    x, y, volume, P, H, annulus, tip_x
+        As those of `stress_intensities`.
+    psi : array [M]
+        Stored energy per reference volume (J/m³).
+
+    Returns
+    -------
+    float
+        J (J/m²).
+
+    Raises
+    ------
+    ValueError
+        If there are no particles in the annulus.
     """
     chosen = _particles_in(annulus, x, y, tip_x)
     along, across = _work(P[:, chosen], H[:, chosen])
@@ -120,7 +178,7 @@ def j_integral(
 
 
 def _particles_in(annulus: Annulus, x: np.ndarray, y: np.ndarray, tip_x: float) -> np.ndarray:
-    """Mask [M]. What lies outside, a tip's singularity for one, is not even multiplied by zero."""
+    """Mask [M]. Values outside may be infinite, as at the tip: they must not be multiplied by zero."""
     r = np.hypot(x - tip_x, y)
     chosen = (annulus.inner < r) & (r < annulus.outer)
     if not chosen.any():

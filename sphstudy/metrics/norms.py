@@ -22,7 +22,18 @@ class Norms(NamedTuple):
 
 
 def error_norms(computed: np.ndarray, exact: np.ndarray) -> Norms:
-    """Norms of computed - exact, arrays [n]. Raises ValueError if there is nothing to compare."""
+    """Norms of the error of a field.
+
+    Parameters
+    ----------
+    computed, exact : array [n]
+        The field at the particles, in one unit.
+
+    Raises
+    ------
+    ValueError
+        If there are no particles.
+    """
     error = np.asarray(computed) - np.asarray(exact)
     if error.size == 0:
         raise ValueError("no particles to compare")

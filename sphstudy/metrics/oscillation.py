@@ -7,11 +7,9 @@ import xarray as xr
 from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
-from sphstudy.metrics.metric import Metric
+from sphstudy.metrics.metric import Metric, pure
 from sphstudy.model.exact import beam
 from sphstudy.model.exact.elasticity2d import Reference, plate_frequencies
-from sphstudy.model.material import Material
-from sphstudy.model.scenes.plate import represented_length
 
 
 @dataclass(frozen=True)
@@ -32,10 +30,20 @@ class DampedSine:
 
 
 def fit_damped_sine(time: np.ndarray, displacement: np.ndarray, omega_guess: float) -> DampedSine:
-    """Least-squares fit of (3.3) to samples; time [M] (s), displacement [M] (m), guess (rad/s).
+    """Least-squares fit of (3.3) to samples.
 
-    Finds any ω between 0.3 and 3 times the guess, and returns it positive. Raises ValueError if there
-    are fewer than five samples, or any that is not finite, or none but zeros, or if they span no time.
+    Parameters
+    ----------
+    time, displacement : array [M]
+        Samples (s), (m).
+    omega_guess : float
+        Angular frequency (rad/s): any ω from 0.3 to 3 times the guess is found, and returned positive.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than five samples, if one is not finite, if all displacements are zero, or if
+        the samples span no time.
     """
     time, displacement = np.asarray(time, float), np.asarray(displacement, float)
     if time.ndim != 1 or time.size < 5 or time.shape != displacement.shape:
@@ -93,10 +101,9 @@ def _start(time: np.ndarray, displacement: np.ndarray) -> tuple[float, float, fl
 def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     """Metrics of the vibrating plate (thesis 3.1, 4.1): from the motion of its tip, or from its modes."""
     scene = config.scene
-    height = scene.L / scene.slenderness
-    beam_omega = beam.fundamental_frequency(scene.E, scene.rho, scene.L, height)
-    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
-    plate, second = plate_frequencies(represented_length(config), height, material)
+    beam_omega = beam.fundamental_frequency(scene.E, scene.rho, scene.L, scene.height)
+    length = scene.represented_length(config.n)
+    plate, second = plate_frequencies(length, scene.height, scene.material)
     exact = {
         "frequency_2d": Metric(plate.value, "rad s-1", "ω1 of the body represented, 2-D elasticity"),
         "frequency_2d_uncertainty": Metric(
@@ -110,11 +117,11 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     return (
         own
         | {
-            "frequency_error": Metric(
-                omega / beam_omega - 1.0, "1", "relative error of ω against the beam's ω0", remark
+            "frequency_error": pure(
+                omega / beam_omega - 1.0, "relative error of ω against the beam's ω0", remark
             ),
-            "frequency_error_2d": Metric(
-                omega / plate.value - 1.0, "1", "relative error of ω against 2-D elasticity"
+            "frequency_error_2d": pure(
+                omega / plate.value - 1.0, "relative error of ω against 2-D elasticity"
             ),
         }
         | exact
@@ -122,7 +129,7 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
 
 
 MAIN_SHARE = 0.5
-"""Of the initial kinetic energy, that the mode taken for the fundamental one carries at least."""
+"""Least share of the initial kinetic energy with which a mode is taken for the fundamental one."""
 
 
 def _of_modes(run: xr.Dataset, config, second: Reference) -> dict[str, Metric]:
@@ -138,20 +145,18 @@ def _of_modes(run: xr.Dataset, config, second: Reference) -> dict[str, Metric]:
             "angular frequency of the mode that carries the initial motion",
             remark,
         ),
-        "main_participation": Metric(share[main], "1", "its share of the initial kinetic energy"),
-        "spurious_modes": Metric(
-            float(main if found else omega.size), "1", "modes below it (or all, if it was not found)"
+        "main_participation": pure(share[main], "its share of the initial kinetic energy"),
+        "spurious_modes": pure(
+            main if found else omega.size, "modes below it (or all, if it was not found)"
         ),
-        "modes_residual": Metric(
-            float(run["mode_residual"].max()), "1", "largest |Kφ - ω²Mφ| over (ω² + shift) |Mφ|"
+        "modes_residual": pure(
+            float(run["mode_residual"].max()), "largest |Kφ - ω²Mφ| over (ω² + shift) |Mφ|"
         ),
     }
     # Of a slender plate the next mode is the second in bending, unless modes without energy come between.
     if found and main == 0 and config.method.hourglass > 0.0 and omega.size > 1:
-        metrics["second_frequency_error_2d"] = Metric(
-            omega[1] / second.value - 1.0,
-            "1",
-            "relative error of the next frequency against ω2, 2-D",
+        metrics["second_frequency_error_2d"] = pure(
+            omega[1] / second.value - 1.0, "relative error of the next frequency against ω2, 2-D"
         )
     return metrics
 
@@ -172,12 +177,12 @@ def _of_motion(run: xr.Dataset, config, beam_omega: float) -> dict[str, Metric]:
         ),
         "amplitude": Metric(fit.amplitude, "m", "amplitude A of the fit"),
         "amplitude_interval": Metric(fit.amplitude_interval, "m", "half-width of the 95 % interval of A"),
-        "amplitude_error": Metric(fit.amplitude / target - 1.0, "1", "relative error of A"),
+        "amplitude_error": pure(fit.amplitude / target - 1.0, "relative error of A"),
         "largest_displacement": Metric(float(np.abs(u_y).max()), "m", "largest |u_y| of the tip"),
-        "amplitude_frequency_product": Metric(
-            fit.amplitude * fit.omega / speed, "1", "A ω / v_tip(0): 1 without loss of energy"
+        "amplitude_frequency_product": pure(
+            fit.amplitude * fit.omega / speed, "A ω / v_tip(0): 1 without loss of energy"
         ),
         "decay_rate": Metric(fit.decay, "s-1", "decay rate κ of the fit"),
         "decay_rate_interval": Metric(fit.decay_interval, "s-1", "half-width of the 95 % interval of κ"),
-        "fit_residual": Metric(fit.residual, "1", "rms residual of the fit over A"),
+        "fit_residual": pure(fit.residual, "rms residual of the fit over A"),
     }

@@ -4,18 +4,31 @@ import numpy as np
 import xarray as xr
 from scipy.spatial import cKDTree
 
-from sphstudy.metrics.metric import Metric, snapshot
-from sphstudy.model.scenes.patch import affine
+from sphstudy.metrics.metric import Metric, pure, snapshot
 
 REACH = 2.3
 """Radius of the fit, in spacings: twenty neighbours on a lattice."""
 
 
 def displacement_gradients(place: np.ndarray, moved: np.ndarray, reach: float) -> np.ndarray:
-    """∂u_a/∂x_b [2, 2, N]: least squares over neighbours nearer than `reach` (m), weight 1 - (r/reach)².
+    """Displacement gradients by least squares over neighbours, with weight 1 - (r/reach)².
 
-    place, moved [2, N]: reference positions and displacements (m). Exact for affine displacements. Raises
-    numpy.linalg.LinAlgError where neighbours lie in a line.
+    Parameters
+    ----------
+    place, moved : array [2, N]
+        Reference positions and displacements (m).
+    reach : float
+        Distance within which particles are neighbours (m).
+
+    Returns
+    -------
+    array [2, 2, N]
+        ∂u_a/∂x_b of each particle; exact where displacements are affine.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        Where neighbours lie in a line.
     """
     pairs = cKDTree(place.T).query_pairs(reach, output_type="ndarray")
     i, j = np.concatenate((pairs, pairs[:, ::-1])).T
@@ -32,7 +45,7 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
 
     Over the largest prescribed displacement, and over the magnitude of the prescribed gradient.
     """
-    state, exact = snapshot(run, "settle"), affine(config.scene)
+    state, exact = snapshot(run, "settle"), config.scene.gradient
     place = np.stack((run["reference_x"].values, run["reference_y"].values))
     moved = np.stack((state["x"].values, state["y"].values)) - place
     free = run["tag_frame"].values == 0
@@ -44,8 +57,6 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
         ("displacement_error", off[free], "displacement over the largest prescribed one"),
         ("strain_error", strain[free], "displacement gradient over the prescribed one"),
     ):
-        found[name] = Metric(float(error.max()), "1", f"largest error of the {what}")
-        found[f"{name}_rms"] = Metric(
-            float(np.sqrt(np.mean(error**2))), "1", f"root mean square error of the {what}"
-        )
+        found[name] = pure(error.max(), f"largest error of the {what}")
+        found[f"{name}_rms"] = pure(np.sqrt(np.mean(error**2)), f"root mean square error of the {what}")
     return found

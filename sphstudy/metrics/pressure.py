@@ -3,22 +3,22 @@
 import numpy as np
 import xarray as xr
 
-from sphstudy.metrics.metric import Metric
+from sphstudy.metrics.metric import Metric, pure
 from sphstudy.metrics.roughness import loaded_state
 
 
 def checkerboard_share(field: np.ndarray) -> float:
-    """Alternating part of a field [rows, columns] over the field, root mean squares both.
+    """Alternating part of a field [rows, columns] over the field, both as root mean squares.
 
     The alternating part of a cell of four neighbours, a quarter of f00 - f01 - f10 + f11, is of second
-    order in the spacing where the field is smooth, and all there is of a field ±1 by turns. NaN for a
-    field of zeros.
+    order in the spacing where the field is smooth, and the whole of a field that is ±1 by turns. NaN
+    for a field of zeros.
     """
     return _share(0.25 * np.diff(np.diff(field, axis=0), axis=1), field)
 
 
 def stripe_share(field: np.ndarray) -> float:
-    """The same of stripes along the rows: a quarter of what two rows have less twice the one between."""
+    """The same for stripes along the rows: a quarter of two rows' sum less twice the row between."""
     return _share(0.25 * np.diff(field, 2, axis=0), field)
 
 
@@ -37,14 +37,14 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     states = {"": (loaded_state(run), "when the tip is up")}
     if run.sizes["snapshot"]:
         states["_end"] = (run.isel(snapshot=-1), "at the end")
-    far = run["reference_x"].values.reshape(config.n, -1)[0] > config.scene.L / config.scene.slenderness
+    far = run["reference_x"].values.reshape(config.n, -1)[0] > config.scene.height
     found: dict[str, Metric] = {}
     for suffix, (state, when) in states.items():
         if state is None:
             continue
         pressure = -0.5 * (state["stress_xx"] + state["stress_yy"]).values.reshape(config.n, -1)[:, far]
         for name, share in (("checkerboard", checkerboard_share), ("stripes", stripe_share)):
-            found[f"pressure_{name}{suffix}"] = Metric(
-                share(pressure), "1", f"{name} in the pressure over the pressure, rms, {when}"
+            found[f"pressure_{name}{suffix}"] = pure(
+                share(pressure), f"{name} in the pressure over the pressure, rms, {when}"
             )
     return found

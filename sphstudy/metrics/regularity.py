@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 from scipy.spatial import cKDTree
 
-from sphstudy.metrics.metric import Metric
+from sphstudy.metrics.metric import Metric, pure
 
 IRREGULAR_REGION = 0.3
 """The thesis finds clumped particles up to this share of the length (0 < x < 0.3 m), figure 4.9."""
@@ -14,7 +14,18 @@ EARLY = 11.0
 
 
 def nearest_distances(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Distance (m) of each particle to its nearest neighbour; positions x, y [N] (m), N > 1."""
+    """Distance of each particle to its nearest neighbour.
+
+    Parameters
+    ----------
+    x, y : array [N]
+        Positions (m) of at least two particles.
+
+    Returns
+    -------
+    array [N]
+        Distances (m).
+    """
     return cKDTree(np.column_stack((x, y))).query(np.column_stack((x, y)), k=2)[0][:, 1]
 
 
@@ -41,12 +52,11 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
             there = distance[chosen]
             if there.size == 0:
                 continue
-            metrics[f"spacing_smallest_{part}{suffix}"] = Metric(
-                float(there.min()), "1", f"smallest distance to a neighbour over Δ, {where}, {when}"
+            metrics[f"spacing_smallest_{part}{suffix}"] = pure(
+                there.min(), f"smallest distance to a neighbour over Δ, {where}, {when}"
             )
-            metrics[f"spacing_spread_{part}{suffix}"] = Metric(
-                float(there.std() / there.mean()),
-                "1",
+            metrics[f"spacing_spread_{part}{suffix}"] = pure(
+                there.std() / there.mean(),
                 f"standard deviation over mean of distances to the nearest neighbour, {where}, {when}",
             )
     return metrics

@@ -7,7 +7,7 @@ turns, spikes form the shortest wave that a row of particles carries.
 import numpy as np
 import xarray as xr
 
-from sphstudy.metrics.metric import Metric, snapshot
+from sphstudy.metrics.metric import Metric, pure, snapshot
 from sphstudy.metrics.von_mises import von_mises
 
 VISIBLE = 0.05
@@ -22,9 +22,17 @@ REGION = 0.25
 
 
 def deviation(field: np.ndarray) -> np.ndarray:
-    """What each particle has beyond the mean of its two neighbours in the row; field [rows, columns].
+    """Difference of each particle's value to the mean of its two neighbours in the row.
 
-    Returns [rows, columns - 2], for the columns between the first and the last. Linear fields give zero.
+    Parameters
+    ----------
+    field : array [rows, columns]
+        Values at the particles of a lattice.
+
+    Returns
+    -------
+    array [rows, columns - 2]
+        For the columns between the first and the last; zero where the field is linear.
     """
     return field[:, 1:-1] - 0.5 * (field[:, :-2] + field[:, 2:])
 
@@ -51,9 +59,8 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
     if not wall.any() or (largest := float(smooth[wall].max())) <= 0.0:
         return {}
     return {
-        f"stress_roughness_{side}": Metric(
+        f"stress_roughness_{side}": pure(
             float(np.sqrt(np.mean(rough[wall & chosen] ** 2))) / largest,
-            "1",
             f"particle-to-particle roughness of the von Mises stress near the wall, {where} the axis",
         )
         for side, where, chosen in (("bottom", "below", y0 < 0.0), ("top", "above", y0 > 0.0))
@@ -61,7 +68,19 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
 
 
 def loaded_state(run: xr.Dataset) -> xr.Dataset | None:
-    """The settled state, or that of the kept times at which the tip is up, closest to its highest."""
+    """The state in which a plate is bent.
+
+    Parameters
+    ----------
+    run : xarray.Dataset
+        The record of a plate.
+
+    Returns
+    -------
+    xarray.Dataset or None
+        The settled state; without one, of the kept times at which the tip is up, the one closest to its
+        highest point; None where there is neither.
+    """
     labels = [str(label) for label in run["snapshot_label"].values]
     if "settle" in labels:
         return snapshot(run, "settle")

@@ -3,9 +3,8 @@
 import numpy as np
 import xarray as xr
 
-from sphstudy.metrics.metric import Metric
+from sphstudy.metrics.metric import Metric, pure
 from sphstudy.model.exact.waves import longitudinal_speed, stopped_bar, stopped_chain
-from sphstudy.model.material import Material
 from sphstudy.numerics.sph.kernel import KERNELS
 
 PLATEAU_END = 0.8
@@ -25,7 +24,7 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
 def _wave(run: xr.Dataset, config) -> dict[str, Metric]:
     """At the end, over all particles not held, against d'Alembert in the reference configuration."""
     scene, state = config.scene, run.isel(snapshot=-1)
-    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
+    material = scene.material
     sound = longitudinal_speed(material)
     speed, time = scene.strength * sound, float(state["snapshot_time"])
     free = run["tag_held"].values == 0
@@ -39,26 +38,22 @@ def _wave(run: xr.Dataset, config) -> dict[str, Metric]:
     noise = float(np.sqrt(np.mean(velocity[plateau] ** 2)))
     chain = stopped_chain(np.round(x[plateau] / spacing).astype(int), front / spacing)
     return {
-        "velocity_error": Metric(
-            float(np.abs(velocity - exact).mean()), "1", "mean |v_x - exact| over the bar's speed"
+        "velocity_error": pure(
+            np.abs(velocity - exact).mean(), "mean |v_x - exact| over the bar's speed"
         ),
-        "stress_overshoot": Metric(
-            float(stress.max()) - 1.0, "1", "largest -σ_xx over the exact one, ρ c v, less one"
+        "stress_overshoot": pure(
+            float(stress.max()) - 1.0, "largest -σ_xx over the exact one, ρ c v, less one"
         ),
-        "plateau_stress_error": Metric(
-            float(stress[plateau].mean()) - 1.0, "1", "relative error of the mean stress behind the front"
+        "plateau_stress_error": pure(
+            float(stress[plateau].mean()) - 1.0, "relative error of the mean stress behind the front"
         ),
-        "plateau_noise": Metric(
-            noise, "1", "rms velocity where the front has passed, over the bar's speed"
-        ),
-        "plateau_noise_ratio": Metric(
+        "plateau_noise": pure(noise, "rms velocity where the front has passed, over the bar's speed"),
+        "plateau_noise_ratio": pure(
             noise / float(np.sqrt(np.mean(chain**2))),
-            "1",
             "this noise over that of a chain of masses and springs, one to a spacing",
         ),
-        "front_lag": Metric(
+        "front_lag": pure(
             (front - _front(x, velocity)) / spacing,
-            "1",
             "how far the front, where the bar has half its speed, is behind the exact one, in spacings",
         ),
     }
@@ -81,14 +76,12 @@ def _particle(run: xr.Dataset) -> dict[str, Metric]:
     offset = np.hypot(run["history_u_x"].values, run["history_u_y"].values)
     late = time >= LATE * time[-1]
     return {
-        "offset_left": Metric(
-            float(np.sqrt(np.mean(offset[late] ** 2)) / offset[0]),
-            "1",
+        "offset_left": pure(
+            np.sqrt(np.mean(offset[late] ** 2)) / offset[0],
             "rms offset of the displaced particle in the last quarter of the run, over its first",
         ),
-        "hourglass_left": Metric(
-            float(np.sqrt(np.mean(amplitude[late] ** 2)) / amplitude[0]),
-            "1",
+        "hourglass_left": pure(
+            np.sqrt(np.mean(amplitude[late] ** 2)) / amplitude[0],
             "rms checkerboard amplitude in the last quarter of the run, over the first",
         ),
     }

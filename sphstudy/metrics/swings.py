@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from sphstudy.metrics.metric import Metric
+from sphstudy.metrics.metric import Metric, pure
 
 EDGE = 4
-"""Swings, two periods, whose mean amplitude stands for the beginning and for the end of a long run."""
+"""Swings (two periods) whose mean amplitude stands for the beginning or the end of a long run."""
 
 
 class Swings(NamedTuple):
@@ -26,8 +26,12 @@ class Swings(NamedTuple):
 
 
 def swings(time: np.ndarray, displacement: np.ndarray) -> Swings:
-    """Crossings, linear between samples, and peaks, by the parabola through the three largest samples;
-    time [M] (s), displacement [M] (m).
+    """Crossings, linear between samples, and peaks, by the parabola through the three largest samples.
+
+    Parameters
+    ----------
+    time, displacement : array [M]
+        Samples (s), (m).
     """
     time, displacement = np.asarray(time, float), np.asarray(displacement, float)
     # A stage's end is sampled twice.
@@ -60,8 +64,8 @@ def period(found: Swings) -> float:
 
 
 def loss_per_period(peaks: np.ndarray) -> float:
-    """Share of the amplitude that a period takes away, in the geometric mean from the first few swings to
-    the last few; negative where amplitudes grow. NaN for fewer than two swings.
+    """Share of the amplitude lost in a period, in the geometric mean from the first few peaks [K] (m)
+    to the last few; negative where amplitudes grow. NaN for fewer than two.
     """
     few = min(EDGE, peaks.size // 2)
     if few == 0:
@@ -81,10 +85,7 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
         "period": Metric(period(found), "s", "mean period, from the tip's passages through rest", remark),
         "amplitude_first": Metric(first, "m", "largest |u_y| of the tip in its first swing"),
         "amplitude_last": Metric(last, "m", "largest |u_y| of the tip in its last whole swing"),
-        "amplitude_loss_per_period": Metric(
-            loss_per_period(found.peaks),
-            "1",
-            "share of the tip's amplitude lost per period, mean",
-            remark,
+        "amplitude_loss_per_period": pure(
+            loss_per_period(found.peaks), "share of the tip's amplitude lost per period, mean", remark
         ),
     }

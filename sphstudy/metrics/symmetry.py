@@ -5,19 +5,17 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from sphstudy.metrics.metric import Metric, snapshot
+from sphstudy.metrics.metric import Metric, pure, snapshot
 
 EVEN = {1: ("xx", "yy"), 2: ("xy",)}
-"""Stresses that are the same at y and -y, for each mode; the others change sign."""
+"""Stresses that are equal at y and -y, for each mode; the others change sign."""
 
 RADIUS = 0.125
-"""Radius of the disc about the tip, and length of the rows ahead of it, in sides of the square (25
-mm).
-"""
+"""Radius of the disc about the tip and length of the rows ahead of it, in sides of the square: 25 mm."""
 
 
 class Parts(NamedTuple):
-    """Root mean squares of the part of a field with the parity asked for and of the part without."""
+    """Root mean squares of the part of a field that has a parity, and of the rest."""
 
     right: float
     wrong: float
@@ -29,8 +27,16 @@ class Parts(NamedTuple):
 
 
 def parity(field: np.ndarray, even: bool, chosen: np.ndarray) -> Parts:
-    """Parts of a field [rows, columns] whose rows lie symmetric about y = 0, over the particles
-    chosen.
+    """Parts of a field with respect to its parity in y.
+
+    Parameters
+    ----------
+    field : array [rows, columns]
+        Values at the particles of a lattice that is symmetric about y = 0.
+    even : bool
+        Whether the field should be even, or odd.
+    chosen : bool array [rows, columns]
+        Particles over which the means are taken.
     """
     same, opposite = 0.5 * (field + field[::-1]), 0.5 * (field - field[::-1])
     right, wrong = (same, opposite) if even else (opposite, same)
@@ -58,9 +64,8 @@ def measure(run: xr.Dataset, config) -> dict[str, Metric]:
             ("", disc, "in a disc about the tip"),
             ("_ahead", rows, "in the two rows ahead of the tip"),
         ):
-            metrics[f"stress_{component}_parity_defect{suffix}"] = Metric(
+            metrics[f"stress_{component}_parity_defect{suffix}"] = pure(
                 parity(field, even, chosen).defect,
-                "1",
                 f"part of σ_{component} that is not {kind} in y over the part that is, rms, {where}",
             )
     return metrics

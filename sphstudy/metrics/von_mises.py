@@ -10,11 +10,23 @@ def von_mises(
     plane: str,
     poisson_ratio: float,
 ) -> np.ndarray:
-    """√(½((σxx-σyy)² + (σyy-σzz)² + (σzz-σxx)²) + 3σxy²) in the unit of the stresses, arrays of any
-    shape.
+    """Von Mises stress √(½((σxx-σyy)² + (σyy-σzz)² + (σzz-σxx)²) + 3σxy²).
 
-    plane "strain": σzz = ν (σxx + σyy), which keeps the thickness; plane "stress": σzz = 0. The thesis
-    does not say which of the two it draws; the state of the body that was computed decides here.
+    The thesis does not say which σzz it draws; here the state of the body that was computed decides.
+
+    Parameters
+    ----------
+    stress_xx, stress_yy, stress_xy : array
+        Stresses, in one unit and of one shape.
+    plane : {"strain", "stress"}
+        strain: σzz = ν (σxx + σyy), which keeps the thickness; stress: σzz = 0.
+    poisson_ratio : float
+        ν.
+
+    Returns
+    -------
+    array
+        In the unit and shape of the stresses.
     """
     xx, yy, xy = np.asarray(stress_xx), np.asarray(stress_yy), np.asarray(stress_xy)
     zz = poisson_ratio * (xx + yy) if plane == "strain" else 0.0

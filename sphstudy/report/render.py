@@ -5,9 +5,10 @@ import math
 import sys
 import traceback
 from dataclasses import dataclass, replace
+from itertools import repeat
 from pathlib import Path
 
-import joblib
+import loky
 import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -59,10 +60,11 @@ def draw_all(results: Results, folder: Path) -> list[Drawing]:
     folder.mkdir(parents=True, exist_ok=True)
     drawn = [_drawn(name, results, folder) for name in results.definition.figures]
     # Writing files, not drawing, is what takes time: all processors share it.
-    jobs = min(joblib.cpu_count(), max(1, sum(figure is not None for _, figure in drawn)))
-    return joblib.Parallel(n_jobs=jobs)(
-        joblib.delayed(_written)(drawing, figure, folder) for drawing, figure in drawn
-    )
+    jobs = min(loky.cpu_count(), sum(figure is not None for _, figure in drawn))
+    if jobs < 2:
+        return [_written(drawing, figure, folder) for drawing, figure in drawn]
+    drawings, figures = zip(*drawn, strict=True)
+    return list(loky.get_reusable_executor(jobs).map(_written, drawings, figures, repeat(folder)))
 
 
 def _drawn(name: str, results: Results, folder: Path) -> tuple[Drawing, Figure | Animation | None]:

@@ -1,40 +1,42 @@
-"""Gets runs done by a launcher, whatever happens to its workers and whoever else is at it."""
+"""Gets runs done by a launcher, whatever happens to its workers and whoever else computes them."""
 
 import os
 import signal
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, Protocol
 
 from sphstudy.configuration.composition import Launcher, Point
-from sphstudy.running.one_run import compute, give_up, job
-from sphstudy.running.plan import Planned
+from sphstudy.running.one_run import compute, give_up, run_job
+from sphstudy.running.slurm.settings import settings_of
+from sphstudy.store.job import Job
 from sphstudy.store.lock import is_alive
 from sphstudy.store.store import Store
 
 PATIENCE = 1.0
-"""Seconds between two looks at runs that somebody else computes."""
+"""Seconds between two looks at runs that another process computes."""
 
 
 def workers_of(launcher: Launcher, points: list[Point]) -> int:
     """How many runs go on at once: one a core of this machine, or fewer if runs have several threads.
 
-    On a cluster, as many as an array may have at work.
+    On a cluster, as many as an array may have at work. Raises ConfigurationError if jobs cannot be
+    submitted from here.
     """
+    if launcher.name == "slurm":
+        return settings_of(launcher.settings).array_parallelism
     jobs, cores = launcher.settings.get("n_jobs"), os.cpu_count() or 1
     threads = max((point.execution.threads for point in points), default=1)
     most = cores if jobs == -1 else jobs or cores // threads
-    if launcher.name == "slurm":
-        return int(launcher.settings["array_parallelism"])
     return 1 if launcher.name == "basic" else max(1, most)
 
 
 class Workers(Protocol):
-    """What runs jobs in other processes, here or elsewhere (see pool.Pool)."""
+    """What runs jobs in other processes: here (pool.Pool), or on a cluster (slurm.jobs.Slurm)."""
 
     def run(
         self,
@@ -43,106 +45,115 @@ class Workers(Protocol):
         time_limit: float | None,
         lost: Callable[[Any, str, str], None],
     ) -> None:
-        """Calls task(job) for each job, and lost(job, outcome, why) for each that it cannot finish."""
+        """Calls task(job) for each job, and lost(job, outcome, reason) for each that is not finished."""
 
     def stop(self) -> None:
-        """Ends all that are at work."""
+        """Ends all jobs that are at work."""
 
 
 class Launching:
-    """The runs that are to be done, and how."""
+    """Points that are to be run, and what runs them.
 
-    def __init__(self, store: Store, pending: list[Planned], launcher: Launcher):
-        self._store, self._pending, self._launcher = store, pending, launcher
-        self._workers = workers_of(launcher, [p.point for p in pending])
+    Parameters
+    ----------
+    store : Store
+        Where records go.
+    points : list of Point
+        Those to run, the longest first.
+    launcher : Launcher
+        What runs them; its settings are checked here (ConfigurationError).
+    """
+
+    def __init__(self, store: Store, points: list[Point], launcher: Launcher):
+        self._store, self._points, self._launcher = store, points, launcher
+        self._workers = workers_of(launcher, points)
         self._unstored: set[Path] = set()
 
     def run(self) -> None:
-        """Until every run has a record, or another process is computing it.
+        """Works until every run has a record, or another process is computing it.
 
-        A worker that is killed costs its own run, which is then failed. A launcher that comes to an end
-        before its runs are done is started again, as long as that gets any of them done.
+        A worker that is killed costs its own run, which then has failed. A launcher that ends before its
+        runs are done is started again, as long as that gets any of them done.
         """
-        pending = self._stamped(self._pending)
+        pending = self._points
         while pending:
-            with _interrupted_cleanly():
-                self._launch(pending)
-            left = [p for p in pending if self._store.stamp(p.point.config) == p.point.execution.known]
-            left = [p for p in left if not is_alive(self._store.claim_path(p.point.config))]
-            left = [p for p in left if self._store.record_path(p.point.config) not in self._unstored]
+            jobs = self._launch(pending)
+            left = [p for p, job in zip(pending, jobs, strict=True) if self._is_undone(p, job)]
             if len(left) == len(pending):
-                for p in left:
-                    self._give_up(p.point, "failed", "its launcher ended without it")
+                for point in left:
+                    self._give_up(point, "failed", "its launcher ended without it")
                 return
             if left:
                 print(f"{len(left)} runs were left undone: going on with them", file=sys.stderr)
             pending = left
-        self.wait_for(self._pending)
+        self.wait_for(self._points)
 
-    def wait_for(self, others: list[Planned]) -> None:
+    def wait_for(self, points: list[Point]) -> None:
         """Waits until runs that other processes compute are done; computes them if those are lost."""
-        waiting, said = list(others), False
+        waiting = self._claimed(points)
+        if waiting:
+            print(f"{len(waiting)} runs are being computed elsewhere: waiting for them", file=sys.stderr)
         while waiting:
-            waiting = [p for p in waiting if is_alive(self._store.claim_path(p.point.config))]
-            if waiting and not said:
-                print(
-                    f"{len(waiting)} runs are being computed elsewhere: waiting for them", file=sys.stderr
-                )
-                said = True
-            if waiting:
-                time.sleep(PATIENCE)
+            time.sleep(PATIENCE)
+            waiting = self._claimed(waiting)
         left = [
             p
-            for p in others
-            if self._store.record_path(p.point.config) not in self._unstored
-            and self._store.status(p.point.config) in ("missing", "interrupted")
+            for p in points
+            if self._store.record_path(p.config) not in self._unstored
+            and self._store.status(p.config) in ("missing", "interrupted")
         ]
         if left:
-            with _interrupted_cleanly():
-                self._launch(self._stamped(left))
+            self._launch(left)
 
-    def _stamped(self, pending: list[Planned]) -> list[Planned]:
-        """With what each record is known by now: one that changes meanwhile is somebody else's work."""
-        found = []
-        for p in pending:
-            execution = replace(p.point.execution, known=self._store.stamp(p.point.config))
-            found.append(replace(p, point=replace(p.point, execution=execution)))
-        return found
+    def _claimed(self, points: list[Point]) -> list[Point]:
+        """Those that a living process computes."""
+        return [p for p in points if is_alive(self._store.claim_path(p.config))]
 
-    def _launch(self, pending: list[Planned]) -> None:
-        if self._launcher.name == "slurm":
-            from sphstudy.running.slurm.jobs import Slurm
+    def _is_undone(self, point: Point, job: Job) -> bool:
+        """Whether a run was launched and has neither a new record nor a process that computes it."""
+        return (
+            self._store.stamp(point.config) == job.known
+            and not is_alive(self._store.claim_path(point.config))
+            and self._store.record_path(point.config) not in self._unstored
+        )
 
-            self._by(Slurm(self._launcher.settings, self._store.folder), pending)
-        elif self._launcher.name == "basic" or len(pending) == 1:
-            # A single run stays in this process: starting another takes longer than many a run.
-            for p in pending:
-                self._compute(p.point)
-        else:
-            from sphstudy.running.pool import Pool
+    def _launch(self, points: list[Point]) -> list[Job]:
+        """Runs the points; returns the job of each."""
+        jobs = [Job.of(point, self._store) for point in points]
+        with _terminated_as_interrupted():
+            if self._launcher.name == "slurm":
+                from sphstudy.running.slurm.jobs import Slurm
 
-            self._by(Pool(self._workers), pending)
+                self._by(Slurm(self._launcher.settings, self._store.folder), points, jobs)
+            elif self._launcher.name == "basic" or len(points) == 1:
+                # A single run stays in this process: starting another takes longer than many a run.
+                for point, job in zip(points, jobs, strict=True):
+                    self._compute(point, job)
+            else:
+                from sphstudy.running.pool import Pool
 
-    def _by(self, workers: Workers, pending: list[Planned]) -> None:
-        jobs = [(p.point.config.as_dict(), str(self._store.folder), p.point.execution) for p in pending]
-        points = {id(one): p.point for one, p in zip(jobs, pending, strict=True)}
-        limits = [p.point.execution.time_limit for p in pending]
+                self._by(Pool(self._workers), points, jobs)
+        return jobs
+
+    def _by(self, workers: Workers, points: list[Point], jobs: list[Job]) -> None:
+        point_of = {id(job): point for job, point in zip(jobs, points, strict=True)}
+        limits = [job.execution.time_limit for job in jobs]
         longest = None if None in limits else max(limit for limit in limits if limit is not None)
         try:
-            workers.run(job, jobs, longest, lambda one, *why: self._give_up(points[id(one)], *why))
+            workers.run(run_job, jobs, longest, lambda job, *why: self._give_up(point_of[id(job)], *why))
         except BaseException:
             workers.stop()
             raise
 
-    def _compute(self, point: Point) -> None:
+    def _compute(self, point: Point, job: Job) -> None:
         try:
-            compute(point.config, self._store, point.execution)
+            compute(point.config, self._store, point.execution, job.known)
         except OSError as error:
             self._give_up(point, "interrupted", str(error))
 
     def _give_up(self, point: Point, outcome: str, why: str) -> None:
-        """Writes what became of a run that has no record. One whose record the disk does not take stays
-        without, so that it is done again as soon as there is room.
+        """Writes the record of a run that left none. If the disk does not take it, the run stays without,
+        so that it is done again as soon as there is room.
         """
         try:
             if outcome != "interrupted":
@@ -155,13 +166,12 @@ class Launching:
 
 
 @contextmanager
-def _interrupted_cleanly() -> Iterator[None]:
-    """A polite kill ends the block as Ctrl-C does: workers are taken along."""
-
-    def interrupt(number, frame):
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGTERM, interrupt)
+def _terminated_as_interrupted() -> Iterator[None]:
+    """SIGTERM ends the block as Ctrl-C does, so that workers and jobs of a cluster are ended too."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # Signals are the main thread's.
+        return
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         yield
     finally:

@@ -3,64 +3,78 @@
 import resource
 import sys
 import time
-import traceback
-from dataclasses import replace
-from typing import Any
 
 import xarray as xr
 
 from sphstudy.catalogue import method_module, scene_module, solver_module
 from sphstudy.configuration.execution import Execution
-from sphstudy.configuration.run_settings import RunConfig, validate
+from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.metrics.metric import Metric
 from sphstudy.numerics.compile_timer import CompileTimer
 from sphstudy.running.interrupt import interruptible
-from sphstudy.running.limits import Log, memory_limited, warnings_to
+from sphstudy.running.limits import memory_limited
 from sphstudy.store import identity, record
 from sphstudy.store.checkpoint_file import CheckpointFile
-from sphstudy.store.lock import Claim
+from sphstudy.store.job import Job
+from sphstudy.store.lock import ELSEWHERE, Claim
+from sphstudy.store.log import run_log
 from sphstudy.store.measured import measured
 from sphstudy.store.provenance import provenance
 from sphstudy.store.store import Store
-
-ELSEWHERE = "elsewhere"
-"""What `compute` says of a run that another process is computing."""
 
 
 class TimedOut(Exception):
     """A run has taken longer than it was given."""
 
 
-def compute(config: RunConfig, store: Store, execution: Execution) -> str:
-    """Computes a point unless another process is about it, or has been since the record was looked at.
+def compute(config: RunConfig, store: Store, execution: Execution, known: int = 0) -> str:
+    """Computes a point and writes its record, going on from its last checkpoint if there is one.
 
-    Goes on from the last checkpoint if there is one, and writes the record. Returns the outcome, or
-    ELSEWHERE. Whatever goes wrong becomes a record; only Ctrl-C passes through, and the OSError of a
-    disk that takes no claim or no record: the run can be done again from its last checkpoint.
+    Parameters
+    ----------
+    config : RunConfig
+        The point.
+    store : Store
+        Where its record goes.
+    execution : Execution
+        How it is carried out.
+    known : int
+        Stamp of the record that is to be replaced, 0 if there is none (see Store.stamp).
+
+    Returns
+    -------
+    str
+        The outcome. Of a record with another stamp, which somebody else has written meanwhile, its
+        status; ELSEWHERE if another process is computing the run.
+
+    Raises
+    ------
+    OSError
+        If the disk takes no claim or no record: the run can be done again from its last checkpoint.
+        Whatever else goes wrong becomes a record; only Ctrl-C passes through.
     """
     claim = Claim(store.claim_path(config))
     if not claim.take():
         return ELSEWHERE
-    with claim:
-        if store.stamp(config) != execution.known and (there := store.summary(config)):
+    with claim, run_log(store.log_path(config)) as log:
+        if store.stamp(config) != known and (there := store.summary(config)):
             return there.status
         keeper = CheckpointFile(store.checkpoint_path(config), execution.checkpoint)
-        started = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
-        log = Log(store.log_path(config))
-        log.say(f"begun, numerics {identity.numerics_version(config)}, results {store.folder}")
+        started = _now()
+        log.info(f"begun, numerics {identity.numerics_version(config)}, results {store.folder}")
         try:
-            with warnings_to(log), memory_limited(execution.memory_limit), interruptible(insisting=True):
+            with memory_limited(execution.memory_limit), interruptible(insisting=True):
                 run = _solved(config, claim, keeper, execution)
         except TimedOut as error:
             run = record.without_result("timeout", str(error), _attributes(config))
         except Exception as error:
-            log.say(traceback.format_exc())
             message = f"{type(error).__name__}: {error}".splitlines()[0]
+            log.exception(message)
             run = record.without_result("failed", message, _attributes(config))
         run.attrs["date_created"], run.attrs["threads"] = started, str(execution.threads)
         store.keep(config, run)
         outcome = record.STATUS[int(run["status"])]
-        log.say(f"{outcome} {run.attrs['message']}")
+        log.info(f"{outcome} {run.attrs['message']}".rstrip())
     # Tried again, such a run goes on from where it had come.
     if outcome not in ("failed", "timeout"):
         keeper.remove()
@@ -68,24 +82,37 @@ def compute(config: RunConfig, store: Store, execution: Execution) -> str:
 
 
 def computed(config: RunConfig, store: Store, execution: Execution) -> xr.Dataset:
-    """The record of a run that is computed here and now, whatever is stored.
+    """The record of a run that is computed here and now, whatever is stored (see `compute`).
 
     Raises RuntimeError if another process is computing it.
     """
-    if compute(config, store, replace(execution, known=store.stamp(config))) == ELSEWHERE:
+    if compute(config, store, execution, store.stamp(config)) == ELSEWHERE:
         raise RuntimeError(f"{config.label} is being computed by another process")
     run = store.read(config)
     assert run is not None, "written just now"
     return run
 
 
+def run_job(job: Job) -> str:
+    """`compute` for a worker."""
+    return compute(job.config, job.store, job.execution, job.known)
+
+
 def give_up(config: RunConfig, store: Store, outcome: str, why: str) -> None:
-    """Writes the record of a run whose process is gone, and takes its claim away."""
+    """Writes the record of a run whose process is gone, and takes its claim away.
+
+    Parameters
+    ----------
+    config, store : RunConfig, Store
+        The point, and where its record goes.
+    outcome, why : str
+        Status of the record ("failed" or "timeout") and its message.
+    """
     run = record.without_result(outcome, why, _attributes(config))
-    run.attrs["date_created"] = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
-    run.attrs["threads"] = ""
+    run.attrs["date_created"], run.attrs["threads"] = _now(), ""
     store.keep(config, run)
-    Log(store.log_path(config)).say(f"{outcome} {why}")
+    with run_log(store.log_path(config)) as log:
+        log.info(f"{outcome} {why}")
     store.claim_path(config).unlink(missing_ok=True)
 
 
@@ -144,7 +171,5 @@ def _peak_memory() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
 
 
-def job(given: tuple[dict[str, Any], str, Execution]) -> str:
-    """`compute` for a worker: configuration as a plain dictionary, folder of results, execution."""
-    values, results, execution = given
-    return compute(validate(values), Store(results), execution)
+def _now() -> str:
+    return time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())

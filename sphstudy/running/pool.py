@@ -1,31 +1,26 @@
-"""Runs in processes of this machine, one worker a slot: a worker that dies costs its own run only.
+"""Runs in processes of this machine: a worker that dies costs its own run only.
 
-loky ends a whole pool when one of its workers is killed, and does not say which run it had. So every slot
-has a pool of one.
+loky ends a whole pool when one of its workers is killed, and does not say which run it had. Each slot
+therefore has a pool of one worker.
 """
 
 import os
 import queue
-import re
 import signal
 import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
-from concurrent.futures import TimeoutError as Overdue
 from multiprocessing import resource_tracker
 from typing import Any
 
-from joblib.externals.loky.process_executor import BrokenProcessPool, ProcessPoolExecutor
+from loky import BrokenProcessPool, ProcessPoolExecutor
 
-GRACE = 120.0
-"""Seconds beyond its time limit after which a run that has not ended itself is ended: a start, with
-compilation, does not count against the limit.
-"""
+from sphstudy.configuration.execution import GRACE, thread_settings
 
 
 class Pool:
-    """So many workers at most, each with its share of the cores."""
+    """Worker processes, at most `workers` at once, each with its share of the cores."""
 
     def __init__(self, workers: int):
         self.workers = workers
@@ -40,17 +35,26 @@ class Pool:
         time_limit: float | None,
         lost: Callable[[Any, str, str], None],
     ) -> None:
-        """Calls task(job) for each job in some worker, in the order given, and waits for all.
+        """Calls task(job) for each job in a worker, in the order given, and waits for all.
 
-        A worker that dies, or a job that takes longer than `time_limit` (s) and some grace, is reported,
-        lost(job, "failed" or "timeout", why), and the others go on. What a task raises is lost too, as
-        "interrupted" if it is an OSError: the disk did not take its record.
+        Parameters
+        ----------
+        task : callable
+            A function of a module, which workers import.
+        jobs : list
+            What it takes; each can be pickled.
+        time_limit : float or None
+            Wall time of a run (s): a worker that takes GRACE longer is killed.
+        lost : callable
+            Called as lost(job, outcome, reason) for a job that its worker did not finish: "failed" if the
+            worker died or the task raised, "timeout", or "interrupted" after an OSError of the task (the
+            disk did not take its record). The other jobs go on.
         """
         waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
         for job in jobs:
             waiting.put(job)
         deadline = None if time_limit is None else time_limit + GRACE
-        # loky starts it with the first worker, and Python's lets SIGINT through again where it starts it.
+        # Python's tracker lets SIGINT through again in the thread that starts it: not in one of a slot.
         resource_tracker.ensure_running()
         slots = [
             threading.Thread(target=self._serve, args=(slot, task, waiting, deadline, lost), daemon=True)
@@ -64,7 +68,7 @@ class Pool:
                 slot.join(0.2)
 
     def stop(self) -> None:
-        """Ends all workers at once."""
+        """Kills all workers at once; none of their jobs counts as lost."""
         with self._starting:
             self._stopped.set()
         for executor in list(self._executors.values()):
@@ -84,30 +88,29 @@ class Pool:
 
     def _do(self, slot, task, job, deadline, lost) -> None:
         with self._starting:
-            # None that is started after the others were ended.
+            # No worker may start after `stop` has killed the others.
             if self._stopped.is_set():
                 return
             if slot not in self._executors:
                 share = max(1, (os.cpu_count() or 1) // self.workers)
                 self._executors[slot] = ProcessPoolExecutor(
-                    1, None, env=thread_settings(share), initializer=_end_with, initargs=(os.getpid(),)
+                    1, env=thread_settings(share), initializer=_end_with, initargs=(os.getpid(),)
                 )
             future: Future = self._executors[slot].submit(task, job)
         try:
             future.result(deadline)
         except Exception as error:
-            if isinstance(error, Overdue | BrokenProcessPool) and (
-                executor := self._executors.pop(slot, None)
-            ):
+            # What a task raises may be a TimeoutError too.
+            overdue = not future.done()
+            broken = overdue or isinstance(error, BrokenProcessPool)
+            if broken and (executor := self._executors.pop(slot, None)):
                 executor.shutdown(wait=False, kill_workers=True)
-            if not self._stopped.is_set():
-                lost(job, *_why(error, deadline))
-
-
-def thread_settings(count: int) -> dict[str, str]:
-    """Environment of a process that may use so many threads."""
-    names = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-    return dict.fromkeys(names, str(count))
+            if self._stopped.is_set():
+                return
+            if overdue:
+                lost(job, "timeout", f"ended after {deadline:g} s: it did not end itself")
+            else:
+                lost(job, *_why(error))
 
 
 def _end_with(parent: int) -> None:
@@ -121,14 +124,13 @@ def _end_with(parent: int) -> None:
     threading.Thread(target=watch, daemon=True).start()
 
 
-def _why(error: Exception, deadline: float | None) -> tuple[str, str]:
-    """How a run ended, and why: of a dead worker with the exit code that loky names."""
+def _why(error: Exception) -> tuple[str, str]:
+    """Outcome and reason of a job that was lost; of a dead worker also what loky says of its end."""
     if isinstance(error, BrokenProcessPool):
-        code = re.search(r"SIG[A-Z]+\(-\d+\)|EXIT\(\d+\)", str(error))
-        told = f" ({code.group()})" if code else ""
-        return "failed", f"its process was ended from outside, by a signal or for want of memory{told}"
-    if isinstance(error, Overdue):
-        return "timeout", f"ended after {deadline:g} s: it did not end itself"
+        codes = [line for line in str(error).splitlines() if "exit codes" in line]
+        return "failed", ". ".join(
+            ["its process was ended from outside, by a signal or for want of memory", *codes]
+        )
     if isinstance(error, OSError):
         return "interrupted", str(error)
     return "failed", f"{type(error).__name__}: {error}"

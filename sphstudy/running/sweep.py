@@ -54,7 +54,7 @@ def sweep(
         print(remark, file=sys.stderr)
     pending = [p for p in planned if p.runs]
     pending.sort(key=lambda p: p.seconds, reverse=True)
-    launching = Launching(store, pending, hydra.launcher(launcher))
+    launching = Launching(store, [p.point for p in pending], hydra.launcher(launcher))
     for p in pending if force else ():
         store.checkpoint_path(p.point.config).unlink(missing_ok=True)
     if pending:
@@ -62,7 +62,7 @@ def sweep(
         costs = [(p.point.config, p.seconds) for p in pending]
         with display(costs, store, reused=len(planned) - len(pending)):
             launching.run()
-    elsewhere = [p for p in planned if p.status == "running"]
+    elsewhere = [p.point for p in planned if p.status == "running"]
     if elsewhere:
         launching.wait_for(elsewhere)
     configs = [p.config for p in points]

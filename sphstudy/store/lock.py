@@ -2,8 +2,8 @@
 
 <label>-<key>.running.json is made under a lock of the folder, so that of several sweeps over one store
 one gets the run. A claim whose process is gone is *lost*: whoever wants the run takes it over. On the
-same machine the process table tells; of other machines the file's age does, since whoever holds a claim
-touches it again every few seconds.
+same machine the table of processes shows that; on another the age of the file does, since the holder of a
+claim touches it every few seconds.
 """
 
 import fcntl
@@ -17,6 +17,13 @@ from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+import psutil
+
+from sphstudy.store.atomic import replacing
+
+ELSEWHERE = "elsewhere"
+"""What a worker answers instead of an outcome if another process computes the run."""
+
 NOTE_INTERVAL = 0.5
 """Seconds between two notes of the step reached."""
 
@@ -28,14 +35,20 @@ LOST_AFTER = 120.0
 another machine is lost.
 """
 
+SAME_START = 0.1
+"""By how much two readings of the time when one process started may differ (s)."""
+
 _LOCK = ".claims"
 
 
 @dataclass(frozen=True)
 class Holder:
-    """What a claim says: step reached of so many, process and machine, and when it began (Unix time).
+    """What a claim says.
 
-    born: when the process started, in the kernel's ticks: numbers of processes are used again.
+    step, steps : the step reached, and how many there are; both 0 before the first.
+    process, host : number of the process, and name of its machine.
+    started : when the claim was taken (Unix time).
+    born : when the process started (s after the machine did): numbers of processes are used again.
     """
 
     step: int
@@ -43,7 +56,7 @@ class Holder:
     process: int
     host: str
     started: float
-    born: str = ""
+    born: float = 0.0
 
 
 class Claim:
@@ -55,8 +68,17 @@ class Claim:
         self._over = threading.Event()
 
     def take(self) -> bool:
-        """Takes the run unless a living process has it; whether that worked. Raises OSError if the
-        claim cannot be written: without it, others would compute the run too.
+        """Takes the run unless a living process has it.
+
+        Returns
+        -------
+        bool
+            Whether the run is ours.
+
+        Raises
+        ------
+        OSError
+            If the claim cannot be written: without it, others would compute the run too.
         """
         self.path.parent.mkdir(parents=True, exist_ok=True)
         with _locked(self.path.parent):
@@ -83,13 +105,8 @@ class Claim:
         self._written = time.monotonic()
         me = os.getpid()
         note = Holder(step, steps, me, platform.node(), self._started, _born(me))
-        temporary = self.path.with_suffix(f".{me}.tmp")
-        try:
+        with replacing(self.path, durable=False) as temporary:
             temporary.write_text(json.dumps(asdict(note)))
-            os.replace(temporary, self.path)
-        except OSError:
-            temporary.unlink(missing_ok=True)
-            raise
 
     def _beat(self) -> None:
         while not self._over.wait(HEARTBEAT):
@@ -110,37 +127,34 @@ def holder(path: Path) -> Holder | None:
     if not os.path.exists(path):
         return None
     try:
-        return Holder(**json.loads(path.read_text()))
-    except (OSError, ValueError, TypeError):
+        values = json.loads(path.read_text())
+        return Holder(**(values | {"born": float(values["born"])}))
+    except (OSError, ValueError, TypeError, LookupError):
         return None
 
 
 def is_alive(path: Path) -> bool:
-    """Whether there is a claim and its process still runs."""
+    """Whether there is a claim whose process still runs; one that cannot be judged does not."""
     note = holder(path)
     if note is None:
         return False
     if note.host == platform.node():
-        return _born(note.process) == note.born != ""
+        # A claim of an older version counts in ticks: no process has started then.
+        born = _born(note.process)
+        return born > 0.0 and abs(born - note.born) < SAME_START
     try:
         return abs(time.time() - path.stat().st_mtime) < LOST_AFTER
     except OSError:
         return False
 
 
-def _born(process: int) -> str:
-    """When a living process started, in ticks; "" if it is gone; "?" where there is no /proc."""
+def _born(process: int) -> float:
+    """When a living process started (s after the machine did); 0 if it is gone, or a zombie."""
     try:
-        fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
-        return "" if fields[0] == "Z" else fields[19]
-    except OSError:
-        pass
-    if Path("/proc/self/stat").exists():
-        return ""
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return ""
-    except PermissionError:
-        pass
-    return "?"
+        found = psutil.Process(process)
+        if found.status() == psutil.STATUS_ZOMBIE:
+            return 0.0
+        # Both are shifted where the clock is set, as after a pause of a virtual machine; this is not.
+        return found.create_time() - psutil.boot_time()
+    except (psutil.Error, ValueError, TypeError, OverflowError):
+        return 0.0

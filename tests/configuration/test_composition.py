@@ -99,7 +99,7 @@ WRONG = [
     (["memory_limit=x"], "memory_limit=x: should be a valid number"),
     (["retry=often"], "unknown retry 'often'; there are none, failed, timeout, all"),
     (["scene.name=mine"], "scene.name=mine: the name is that of the file; scene=NAME chooses another"),
-    (["known=1"], "known=1: set by the program itself"),
+    (["known=1"], "known=1: unknown setting 'known'"),
     (["h=25"], "the support is wider than the body"),
 ]
 

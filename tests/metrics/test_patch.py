@@ -14,7 +14,7 @@ def followed():
     """Record of a patch in which all particles follow the frame, its places and its gradient."""
     config = configured("scene=patch")
     problem = patch.build(config)
-    place, gradient = np.stack((problem.body.x, problem.body.y)), patch.affine(config.scene)
+    place, gradient = np.stack((problem.body.x, problem.body.y)), config.scene.gradient
     state = np.zeros((8, place.shape[1]))
     state[:2] = place + gradient @ place
     solution = Solution(snapshots=[Snapshot("settle", 0.0, 0, state, 0.0)])

@@ -8,7 +8,9 @@ from sphstudy.catalogue import scene_module
 from sphstudy.configuration.composition import session
 from sphstudy.metrics import stress_intensity
 from sphstudy.model.exact import williams
+from sphstudy.numerics.solvers.solution import FIELDS, Snapshot, Solution
 from sphstudy.numerics.sph import constitutive
+from sphstudy.store.record import fields
 
 E, NU, K = 6e6, 0.3, 35.8e3
 
@@ -17,13 +19,11 @@ def record(settings, displacement, stress):
     """A settled state with this displacement [2, N] and Cauchy stress [3, N]."""
     with session() as hydra:
         config = hydra.points(settings, sweep=False)[0][0].config
-    body = scene_module("crack").build(config).body
-    u, sigma = displacement(body), stress(body)
-    fields = {"x": body.x + u[0], "y": body.y + u[1]}
-    fields |= dict(zip(("stress_xx", "stress_yy", "stress_xy"), sigma, strict=True))
-    data = {name: (("snapshot", "particle"), values[None]) for name, values in fields.items()}
-    data |= {"snapshot_label": ("snapshot", ["settle"]), "spacing_x": body.spacing_x}
-    return xr.Dataset(data), config
+    problem = scene_module("crack").build(config)
+    body, state = problem.body, np.zeros((len(FIELDS), problem.body.x.size))
+    state[:2] = np.stack((body.x, body.y)) + displacement(body)
+    state[-3:] = stress(body)
+    return fields(problem, Solution(snapshots=[Snapshot("settle", 0.0, 0, state, 0.0)])), config
 
 
 def measured(settings, displacement, stress):

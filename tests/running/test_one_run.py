@@ -1,7 +1,7 @@
 """One point: whatever happens becomes a record with the reason, and nobody computes it twice."""
 
 import contextlib
-import os
+import pickle
 import signal
 import warnings
 from dataclasses import replace
@@ -9,8 +9,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sphstudy.running.one_run import ELSEWHERE, TimedOut, compute, computed, give_up, job
-from sphstudy.store.lock import Claim
+from sphstudy.running.one_run import TimedOut, compute, computed, give_up, run_job
+from sphstudy.store.job import Job
+from sphstudy.store.lock import ELSEWHERE, Claim
 from sphstudy.store.store import Store
 from tests.support.made_up import Solver, points
 
@@ -43,8 +44,7 @@ def test_what_another_sweep_has_done_meanwhile_is_not_computed_again(point, stor
     compute(point.config, store, point.execution)
     assert compute(point.config, store, point.execution) == "done"
     assert solver.runs == [5]
-    known = replace(point.execution, known=store.stamp(point.config))
-    compute(point.config, store, known)
+    compute(point.config, store, point.execution, store.stamp(point.config))
     assert solver.runs == [5, 5], "asked for again by who knows the record"
 
 
@@ -106,8 +106,7 @@ def test_a_checkpoint_outlives_a_timeout_and_not_a_result(point, store, solver):
     assert compute(point.config, store, point.execution) == "timeout"
     assert kept.exists()
     solver.deeds.clear()
-    again = replace(point.execution, known=store.stamp(point.config))
-    assert compute(point.config, store, again) == "done"
+    assert compute(point.config, store, point.execution, store.stamp(point.config)) == "done"
     assert not kept.exists()
 
 
@@ -143,6 +142,7 @@ def test_a_run_whose_process_is_gone_is_given_up_with_the_reason(point, store):
 
 
 def test_a_worker_makes_a_run_of_plain_values(point, store, solver):
-    given = (point.config.as_dict(), os.fspath(store.folder), point.execution)
-    assert job(given) == "done"
+    job = pickle.loads(pickle.dumps(Job.of(point, store)))
+    assert run_job(job) == "done"
     assert store.summary(point.config).attributes["title"] == point.config.label
+    assert job.is_recorded()

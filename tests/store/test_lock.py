@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 
+import psutil
 import pytest
 
 from sphstudy.store import lock
@@ -77,8 +78,24 @@ def test_a_claim_whose_process_was_killed_is_lost_and_taken_over(path):
 def test_a_process_of_the_same_number_that_began_at_another_time_is_another(path):
     written(path)
     assert is_alive(path)
-    written(path, born="1")
+    written(path, born=1.0)
     assert not is_alive(path)
+
+
+@pytest.mark.parametrize("born", ["", "52341", "?", None], ids=["gone", "ticks", "unknown", "none"])
+def test_a_claim_of_an_older_version_cannot_be_judged_and_holds_nothing(path, born):
+    """It counted in ticks of the kernel."""
+    written(path, born=born)
+    assert not is_alive(path)
+    assert Claim(path).take()
+
+
+def test_a_clock_that_is_set_makes_no_other_process(path, monkeypatch):
+    written(path)
+    boot, create = psutil.boot_time(), psutil.Process().create_time()
+    monkeypatch.setattr(psutil, "boot_time", lambda: boot + 3600.0)
+    monkeypatch.setattr(psutil.Process, "create_time", lambda self: create + 3600.0)
+    assert is_alive(path)
 
 
 def test_a_process_that_is_dead_but_not_waited_for_is_gone(path):
@@ -86,7 +103,7 @@ def test_a_process_that_is_dead_but_not_waited_for_is_gone(path):
     while lock._born(child.pid):
         time.sleep(0.01)
     assert child.returncode is None
-    written(path, process=child.pid, born="")
+    written(path, process=child.pid, born=0.0)
     assert not is_alive(path)
     child.wait()
 
@@ -134,7 +151,7 @@ def test_a_claim_that_cannot_be_written_is_not_taken(path, monkeypatch):
     def full(*arguments):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(lock.os, "replace", full)
+    monkeypatch.setattr(os, "replace", full)
     with pytest.raises(OSError, match="No space"):
         Claim(path).take()
-    assert list(path.parent.glob("*.tmp")) == []
+    assert [file.name for file in path.parent.iterdir()] == [".claims"]

@@ -26,6 +26,7 @@ from sphstudy.catalogue import scene_module
 from sphstudy.configuration.composition import session
 from sphstudy.configuration.run_settings import validate
 from sphstudy.running import sweep
+from sphstudy.running.launching import workers_of
 from sphstudy.running.plan import plan
 from sphstudy.store.store import Store
 from tests.stress.strategies import CHEAP, OVERRIDES, POISON, STUDIES, damages
@@ -43,7 +44,7 @@ class WouldRun(BaseException):
 
 
 def _stop(hydra, points, store, launcher, force=False, name=None):
-    hydra.launcher(launcher)
+    workers_of(hydra.launcher(launcher), points)
     small = [p for p in points if scene_module(p.config.scene.kind).particles(p.config) < 3000]
     plan(small, store)
     raise WouldRun(points)

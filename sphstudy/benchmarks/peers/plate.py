@@ -12,7 +12,6 @@ from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.errors import ConfigurationError
 from sphstudy.model.exact import beam
 from sphstudy.model.exact.elasticity2d import Reference, plate_frequencies
-from sphstudy.model.material import Material
 from sphstudy.model.problem import Problem
 from sphstudy.model.scenes import plate as scene
 from sphstudy.numerics.methods.updated_lagrangian import wave_speed
@@ -64,15 +63,12 @@ def plate(n: int) -> Plate:
     """The plate with n rows. Raises ConfigurationError if the scene does not take n."""
     config = _config(n, 1)
     own, problem = config.scene, scene.build(config)
-    height = own.L / own.slenderness
-    exact, _ = plate_frequencies(
-        scene.represented_length(config), height, Material(own.E, own.nu, own.rho, own.plane)
-    )
+    exact, _ = plate_frequencies(own.represented_length(n), own.height, own.material)
     return Plate(
         config,
         problem.step_spacing / wave_speed(config, problem),
         float(problem.stages[0].duration or 0.0),
-        beam.fundamental_frequency(own.E, own.rho, own.L, height),
+        beam.fundamental_frequency(own.E, own.rho, own.L, own.height),
         GROWTH * _fastest(problem),
         exact,
     )

@@ -9,7 +9,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numba
 import numpy as np
@@ -17,8 +17,9 @@ import numpy as np
 from sphstudy.benchmarks.speed.bodies import Case, made
 from sphstudy.benchmarks.speed.interleave import Stepper, interleaved
 from sphstudy.configuration.composition import Session
-from sphstudy.running.one_run import job
+from sphstudy.running.one_run import run_job
 from sphstudy.running.pool import Pool
+from sphstudy.store.job import Job
 from sphstudy.store.store import Store
 
 CONTROL_SECONDS = 1.0
@@ -126,9 +127,7 @@ def processes(hydra: Session, settings: tuple[str, ...], jobs: int, rounds: int)
         store.prepare()
 
         def sweep(count: int, first: int = jobs) -> None:
-            known = [replace(p.execution, known=store.stamp(p.config)) for p in points[:first]]
-            given = [(p.config.as_dict(), folder, one) for p, one in zip(points, known, strict=False)]
-            Pool(count).run(job, given, None, _failed)
+            Pool(count).run(run_job, [Job.of(p, store) for p in points[:first]], None, _failed)
 
         sweep(1, 1)  # compiled once, which does not count
         control = Control(CONTROL_SECONDS)

@@ -25,6 +25,10 @@ class Parameters(SquareParameters):
 
     amplitude: float = number("largest displacement, in spacings", gt=0, lt=0.25)
 
+    def displacements(self, n: int) -> np.ndarray:
+        """u_x [n · n] (m) of the checkerboard with all of its load."""
+        return self.amplitude * (self.L / n) * pattern(n)
+
 
 def check(config) -> Iterator[str]:
     """Complaints about resolution and solver."""
@@ -45,7 +49,7 @@ def build(config) -> Problem:
     """Problem of the checkerboard: every particle is driven in x and held in y."""
     body = square_body(config)
     everybody = np.arange(body.x.size)
-    target = config.scene.amplitude * body.spacing_x * pattern(config.n)
+    target = config.scene.displacements(config.n)
     return Problem(
         body=body,
         constraints=Constraints(everybody, target, everybody, np.zeros(body.x.size)),

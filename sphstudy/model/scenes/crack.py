@@ -11,7 +11,6 @@ import numpy as np
 
 from sphstudy.model.constraints import Constraints
 from sphstudy.model.exact import williams
-from sphstudy.model.material import Material
 from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import count, described, number, parameters
@@ -61,9 +60,8 @@ def crack_body(config) -> Body:
         "ahead": beside & (x > 0.0),
         "tip": np.hypot(x, y) < 3.0 * config.h * spacing,
     }
-    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
     mass = np.full(x.size, scene.rho * spacing**2)
-    return Body(x, y, mass, spacing, spacing, material, tags, lattice_sites(n, n))
+    return Body(x, y, mass, spacing, spacing, scene.material, tags, lattice_sites(n, n))
 
 
 def build(config) -> Problem:

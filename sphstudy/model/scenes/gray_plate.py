@@ -11,7 +11,6 @@ from typing import Literal
 import numpy as np
 
 from sphstudy.model.exact import beam
-from sphstudy.model.material import Material
 from sphstudy.model.problem import Body, Problem
 from sphstudy.model.scenes.plate import SlabParameters, slab, vibrating
 from sphstudy.parameters import described, number, parameters
@@ -30,6 +29,19 @@ class Parameters(SlabParameters):
     tip_speed: float = number("initial speed at x = L, in units of c0 = √(K/ρ)", gt=0, lt=1)
     periods: float = number("length of the run, in periods of the thin plate", gt=0)
 
+    def insert_columns(self, n: int) -> int:
+        """Columns of particles in the insert; none with a rigid clamp."""
+        return max(1, round(self.insert_length * n)) if self.clamp == "insert" else 0
+
+    def held_length(self, n: int) -> float:
+        """The insert's, in whole columns of particles (m); 0 with a rigid clamp."""
+        return self.insert_columns(n) * self.L / (self.slenderness * n)
+
+    @property
+    def push(self) -> float:
+        """Speed (m/s) at x = L at the start."""
+        return self.tip_speed * self.material.wave_speed
+
 
 def check(config) -> Iterator[str]:
     """Complaints about the resolution."""
@@ -37,20 +49,10 @@ def check(config) -> Iterator[str]:
         yield f"n={config.n}: must be at least 3 in {config.scene.name}"
 
 
-def _insert_columns(config) -> int:
-    scene = config.scene
-    return max(1, round(scene.insert_length * config.n)) if scene.clamp == "insert" else 0
-
-
 def particles(config) -> int:
     """How many particles the scene has."""
-    return (config.scene.slenderness * config.n + _insert_columns(config)) * config.n
-
-
-def held_length(config) -> float:
-    """Length (m) of the insert, in whole columns of particles; 0 with a rigid clamp."""
     scene = config.scene
-    return _insert_columns(config) * scene.L / (scene.slenderness * config.n)
+    return (scene.slenderness * config.n + scene.insert_columns(config.n)) * config.n
 
 
 def body(config) -> Body:
@@ -60,26 +62,20 @@ def body(config) -> Body:
     than Δy, s the slenderness. Insert: a square lattice that x = 0 cuts half-way between two columns.
     """
     scene, rows = config.scene, config.n
-    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
     columns = scene.slenderness * rows
     spacing = scene.L / columns
     if scene.clamp == "rigid":
         wider = scene.L / (columns - 0.5)
-        return slab(wider * np.arange(columns), rows, wider, spacing, material)
-    along = spacing * (np.arange(-_insert_columns(config), columns) + 0.5)
-    whole = slab(along, rows, spacing, spacing, material)
+        return slab(wider * np.arange(columns), rows, wider, spacing, scene.material)
+    along = spacing * (np.arange(-scene.insert_columns(config.n), columns) + 0.5)
+    whole = slab(along, rows, spacing, spacing, scene.material)
     outermost = np.isin(whole.sites[1], (0, rows - 1))  # type: ignore[index]
     return replace(whole, tags=whole.tags | {"clamped": (whole.x < 0.0) & outermost})
-
-
-def tip_speed(scene: Parameters) -> float:
-    """Initial speed (m/s) at x = L."""
-    return scene.tip_speed * Material(scene.E, scene.nu, scene.rho, scene.plane).wave_speed
 
 
 def build(config) -> Problem:
     """Problem of the plate: clamp, initial velocity of a beam's lowest mode, one free stage."""
     scene, plate = config.scene, body(config)
-    omega = beam.thin_plate_frequency(scene.E, scene.nu, scene.rho, scene.L, scene.L / scene.slenderness)
-    velocity = beam.mode_shape(plate.x, scene.L) * tip_speed(scene)
+    omega = beam.thin_plate_frequency(scene.E, scene.nu, scene.rho, scene.L, scene.height)
+    velocity = beam.mode_shape(plate.x, scene.L) * scene.push
     return vibrating(plate, velocity, scene.periods * 2.0 * np.pi / omega)

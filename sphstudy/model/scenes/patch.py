@@ -4,16 +4,14 @@ Particles carry equal volumes, however they lie: that they do not tile the squar
 """
 
 from collections.abc import Iterator
-from typing import Literal
 
 import numpy as np
 
 from sphstudy.model.constraints import Constraints
-from sphstudy.model.material import Material
 from sphstudy.model.problem import Body, Problem, lattice, lattice_sites
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.model.scenes.tension import held, noise
-from sphstudy.parameters import count, described, number, parameters
+from sphstudy.parameters import count, number, parameters
 
 
 @parameters
@@ -21,7 +19,6 @@ class Parameters(SolidParameters):
     """A square of `n` by `n` particles about the origin, and the affine displacement of its frame."""
 
     L: float = number("side of the square", "m", gt=0)
-    plane: Literal["strain", "stress"] = described("plane strain or plane stress")
     perturbation: float = number("largest displacement from the lattice, in spacings", ge=0, le=0.4)
     frame_layers: int = count("layers of particles, from the edge inwards, that are driven", ge=1)
     gradient_xx: float = number("∂u_x/∂x of the frame", gt=-0.5, lt=0.5)
@@ -30,6 +27,11 @@ class Parameters(SolidParameters):
     gradient_yy: float = number("∂u_y/∂y of the frame", gt=-0.5, lt=0.5)
     end_time: float = number("time at which the state is measured", "s", gt=0)
 
+    @property
+    def gradient(self) -> np.ndarray:
+        """Displacement gradient [2, 2] of the frame: ∂u_a/∂x_b in row a, column b."""
+        return np.array([[self.gradient_xx, self.gradient_xy], [self.gradient_yx, self.gradient_yy]])
+
 
 def check(config) -> Iterator[str]:
     """Complaints about the resolution, and about a frame that does not move."""
@@ -37,18 +39,13 @@ def check(config) -> Iterator[str]:
     least = 2 * scene.frame_layers + 2
     if config.n < least:
         yield f"n={config.n}: must be at least {least} in {scene.name} (for frame and inside)"
-    if not affine(scene).any():
+    if not scene.gradient.any():
         yield f"scene.gradient_xx=0: {scene.name} needs a frame that moves, all four are zero"
 
 
 def particles(config) -> int:
     """How many particles the scene has."""
     return config.n * config.n
-
-
-def affine(scene) -> np.ndarray:
-    """Displacement gradient [2, 2] of the frame: ∂u_a/∂x_b in row a, column b."""
-    return np.array([[scene.gradient_xx, scene.gradient_xy], [scene.gradient_yx, scene.gradient_yy]])
 
 
 def square(config) -> Body:
@@ -59,15 +56,14 @@ def square(config) -> Body:
     x, y = lattice(line, line)
     tags = {"frame": np.maximum(np.abs(x), np.abs(y)) > 0.5 * scene.L - scene.frame_layers * spacing}
     off = noise(x.size, scene.perturbation * spacing, config.seed)
-    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
     mass = np.full(x.size, scene.rho * spacing**2)
-    return Body(x + off[0], y + off[1], mass, spacing, spacing, material, tags, lattice_sites(n, n))
+    return Body(x + off[0], y + off[1], mass, spacing, spacing, scene.material, tags, lattice_sites(n, n))
 
 
 def build(config) -> Problem:
     """Problem of the patch test: frame driven with the affine displacement of its particles."""
     body = square(config)
     frame = np.flatnonzero(body.tags["frame"])
-    u_x, u_y = affine(config.scene) @ np.stack((body.x, body.y))[:, frame]
+    u_x, u_y = config.scene.gradient @ np.stack((body.x, body.y))[:, frame]
     distance = np.where(body.tags["frame"], np.inf, np.hypot(body.x, body.y))
     return held(config, body, Constraints(frame, u_x, frame, u_y), tracked=int(np.argmin(distance)))

@@ -19,7 +19,24 @@ class SlabParameters(SolidParameters):
 
     L: float = number("length", "m", gt=0)
     slenderness: int = count("length over height; columns per row", ge=2)
-    plane: Literal["strain", "stress"] = described("plane strain or plane stress")
+
+    @property
+    def height(self) -> float:
+        """Full height (m)."""
+        return self.L / self.slenderness
+
+    def represented_length(self, n: int) -> float:
+        """Length (m) of the body that particles in n rows stand for, from the wall to the free end."""
+        return self.L
+
+    def held_length(self, n: int) -> float:
+        """Length (m) of the part behind the wall whose faces are held."""
+        return 0.0
+
+    @property
+    def push(self) -> float | None:
+        """Speed (m/s) of the tip at the start, where the scene prescribes it."""
+        return None
 
 
 @parameters
@@ -30,6 +47,12 @@ class PlateParameters(SlabParameters):
         "columns from 0 to L - Δx/2 evenly (Δx = L/(12n - 1/2)), or at kΔy, half a cell short of L",
     )
     clamped_columns: int = count("columns of particles held at the wall, the last at x = 0", ge=1, le=8)
+
+    def represented_length(self, n: int) -> float:
+        """To half a cell beyond the last column (m)."""
+        if self.columns == "linspace":
+            return self.L
+        return self.L - 0.5 * self.L / (self.slenderness * n)
 
 
 @parameters
@@ -57,12 +80,11 @@ def particles(config) -> int:
 def plate_body(config) -> Body:
     """The particles of the plate; tag "clamped": those at x ≤ 0, "centreline": those at y = 0."""
     scene, rows = config.scene, config.n
-    height = scene.L / scene.slenderness
-    spacing_y = height / rows
+    spacing_y = scene.height / rows
     columns = scene.slenderness * rows
     spacing_x = scene.L / (columns - 0.5) if scene.columns == "linspace" else spacing_y
     x = spacing_x * np.arange(1 - scene.clamped_columns, columns)
-    return slab(x, rows, spacing_x, spacing_y, Material(scene.E, scene.nu, scene.rho, scene.plane))
+    return slab(x, rows, spacing_x, spacing_y, scene.material)
 
 
 def slab(x: np.ndarray, rows: int, spacing_x: float, spacing_y: float, material: Material) -> Body:
@@ -84,18 +106,10 @@ def end_particle(body: Body) -> int:
     return int(end[np.argmin(np.abs(body.y[end]))])
 
 
-def represented_length(config) -> float:
-    """Length (m) of the body that the particles stand for: to half a cell beyond the last column."""
-    scene = config.scene
-    if scene.columns == "linspace":
-        return scene.L
-    return scene.L - 0.5 * scene.L / (scene.slenderness * config.n)
-
-
 def build(config) -> Problem:
     """Problem of the vibrating plate: clamp, initial velocity (3.2), one free stage."""
     scene = config.scene
-    omega = beam.fundamental_frequency(scene.E, scene.rho, scene.L, scene.L / scene.slenderness)
+    omega = beam.fundamental_frequency(scene.E, scene.rho, scene.L, scene.height)
     body = plate_body(config)
     velocity = beam.mode_shape(body.x, scene.L) * scene.H0 * scene.L * omega
     return vibrating(body, velocity, scene.periods * 2.0 * np.pi / omega)

@@ -11,7 +11,6 @@ from collections.abc import Iterator
 import numpy as np
 
 from sphstudy.model.constraints import Constraints
-from sphstudy.model.material import Material
 from sphstudy.model.problem import Body, Problem, lattice
 from sphstudy.model.scenes.tension import StretchedParameters, held, noise, strain_complaint
 from sphstudy.parameters import count, number, parameters
@@ -59,10 +58,9 @@ def disc(config) -> Body:
         "middle": distance < 0.5 * scene.radius,
     }
     off = noise(x.size, scene.noise * spacing, config.seed)
-    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
     mass = np.full(x.size, scene.rho * spacing**2)
     sites = np.stack(np.nonzero(inside))[::-1]
-    return Body(x + off[0], y + off[1], mass, spacing, spacing, material, tags, sites)
+    return Body(x + off[0], y + off[1], mass, spacing, spacing, scene.material, tags, sites)
 
 
 def build(config) -> Problem:

@@ -9,7 +9,6 @@ from typing import Literal
 import numpy as np
 
 from sphstudy.model.constraints import Constraints
-from sphstudy.model.material import Material
 from sphstudy.model.problem import Body, Problem, Stage
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import count, described, number, parameters
@@ -58,7 +57,6 @@ def rings_body(config) -> Body:
     radius = np.hypot(np.abs(x) - shift * spacing, y)
     chosen = (radius > scene.inner) & (radius < scene.outer)
     x, y = x[chosen], y[chosen]
-    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
     left = x < 0.0
     return Body(
         x,
@@ -66,7 +64,7 @@ def rings_body(config) -> Body:
         np.full(x.size, scene.rho * spacing**2),
         spacing,
         spacing,
-        material,
+        scene.material,
         {"left": left},
         np.stack((column[chosen], row[chosen])),
         np.where(left, 0, 1),

@@ -13,7 +13,6 @@ import numpy as np
 
 from sphstudy.model.constraints import Constraints
 from sphstudy.model.exact.waves import longitudinal_speed
-from sphstudy.model.material import Material
 from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import count, described, number, parameters
@@ -26,7 +25,6 @@ class Parameters(SolidParameters):
     shock: Literal["wave", "particle"] = described("a step load, or a particle out of place")
     L: float = number("length", "m", gt=0)
     slenderness: int = count("length over height; columns per row", ge=1)
-    plane: Literal["strain", "stress"] = described("plane strain or plane stress")
     held_layers: int = count(
         "wave: columns held at x ≤ 0; particle: layers of the frame held", ge=1, le=8
     )
@@ -76,10 +74,8 @@ def _particle_body(config) -> Body:
 
 
 def _body(config, x, y, spacing, tags, sites) -> Body:
-    scene = config.scene
-    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
-    mass = np.full(x.size, scene.rho * spacing**2)
-    return Body(x, y, mass, spacing, spacing, material, tags, sites)
+    mass = np.full(x.size, config.scene.rho * spacing**2)
+    return Body(x, y, mass, spacing, spacing, config.scene.material, tags, sites)
 
 
 def build(config) -> Problem:

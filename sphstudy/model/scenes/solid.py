@@ -1,5 +1,8 @@
 """What every scene says of itself and of its material."""
 
+from typing import Literal
+
+from sphstudy.model.material import Material
 from sphstudy.parameters import described, number, parameters
 
 
@@ -12,3 +15,9 @@ class SolidParameters:
     E: float = number("Young's modulus", "Pa", gt=0)
     nu: float = number("Poisson's ratio", gt=-1, lt=0.5)
     rho: float = number("density", "kg/m3", gt=0)
+    plane: Literal["strain", "stress"] = described("plane strain or plane stress")
+
+    @property
+    def material(self) -> Material:
+        """The solid as Young's modulus, Poisson's ratio, density and plane."""
+        return Material(self.E, self.nu, self.rho, self.plane)

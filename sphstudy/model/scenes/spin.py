@@ -5,15 +5,13 @@ asks for. A rate of stress without the terms of the spin takes the rotation itse
 """
 
 from collections.abc import Iterator
-from typing import Literal
 
 import numpy as np
 
 from sphstudy.model.constraints import Constraints
-from sphstudy.model.material import Material
 from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
 from sphstudy.model.scenes.solid import SolidParameters
-from sphstudy.parameters import described, number, parameters
+from sphstudy.parameters import number, parameters
 
 
 @parameters
@@ -21,7 +19,6 @@ class SquareParameters(SolidParameters):
     """A square of `n` by `n` particles."""
 
     L: float = number("side of the square", "m", gt=0)
-    plane: Literal["strain", "stress"] = described("plane strain or plane stress")
 
 
 @parameters
@@ -49,9 +46,8 @@ def square_body(config) -> Body:
     spacing = scene.L / n
     line = spacing * (np.arange(n) - 0.5 * (n - 1))
     x, y = lattice(line, line)
-    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
     mass = np.full(x.size, scene.rho * spacing**2)
-    return Body(x, y, mass, spacing, spacing, material, sites=lattice_sites(n, n))
+    return Body(x, y, mass, spacing, spacing, scene.material, sites=lattice_sites(n, n))
 
 
 def unconstrained() -> Constraints:

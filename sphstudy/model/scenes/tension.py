@@ -10,7 +10,6 @@ from typing import Literal
 import numpy as np
 
 from sphstudy.model.constraints import Constraints
-from sphstudy.model.material import Material
 from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import count, described, number, parameters
@@ -84,9 +83,8 @@ def bar(config) -> Body:
         "pins": (from_end == 0) & (sites[1] == rows // 2),
     }
     off = noise(x.size, scene.noise * spacing, config.seed)
-    material = Material(scene.E, scene.nu, scene.rho, scene.plane)
     mass = np.full(x.size, scene.rho * spacing**2)
-    return Body(x + off[0], y + off[1], mass, spacing, spacing, material, tags, sites)
+    return Body(x + off[0], y + off[1], mass, spacing, spacing, scene.material, tags, sites)
 
 
 def build(config) -> Problem:

@@ -107,15 +107,14 @@ def _left_out(results: Results) -> pd.DataFrame:
     for row, point in table.iterrows():
         config = results.config_at(row)
         work = cost_forecast.work(config, point["steps"], point["particles"])
-        known.append(Measurement(point["record"], config.flat(), work, point["cpu_seconds"]))
+        known.append(Measurement(point["record"], config, work, point["cpu_seconds"]))
     if len(known) < 2:
         raise Missing(f"{results.name}: fewer than two runs are done")
-    pairs = Rates(tuple(known)).left_out()
-    found = table[["method", "solve"]].assign(
-        predicted=[pairs[name][0] for name in table["record"]],
-        taken=[pairs[name][1] for name in table["record"]],
+    rates = Rates(known)
+    return table[["method", "solve"]].assign(
+        predicted=[rates.seconds(m.config, m.work, without=m.name) for m in known],
+        taken=[m.cpu_seconds for m in known],
     )
-    return found.dropna()
 
 
 def _work_precision(results: Results, scene: str, symbol: str, label: str) -> Figure:

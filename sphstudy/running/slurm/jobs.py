@@ -1,7 +1,7 @@
 """Runs as jobs of a SLURM cluster, in arrays, submitted by submitit.
 
 What became of a run is read from its record, from SLURM's state of its job, and from the job's note
-(cluster_job.py). submitit hands functions over as pickles in a folder of the sweep, which is
+(node.py). submitit hands functions over as pickles in a folder of the sweep, which is
 <results>/slurm/<name>, and leaves there one with the function's value (None), which is never read.
 
 A job that is killed and put back into the queue goes on from the checkpoint of its run. SLURM does that
@@ -19,13 +19,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from sphstudy.configuration.run_settings import validate
 from sphstudy.errors import ConfigurationError
 from sphstudy.running.slurm import queries
 from sphstudy.running.slurm.node import STOPPED, Batch, Note, read_note, work
 from sphstudy.running.slurm.settings import executor, settings_of
-from sphstudy.store.lock import is_alive
-from sphstudy.store.store import Store
+from sphstudy.store.job import Job
 
 INTERRUPTED = ("BOOT_FAIL", "NODE_FAIL", "PREEMPTED")
 """Final states that say nothing against the run."""
@@ -55,13 +53,13 @@ class Slurm:
     def run(
         self,
         task: Callable[[Any], Any],
-        jobs: list[Any],
+        jobs: list[Job],
         time_limit: float | None,
         lost: Callable[[Any, str, str], None],
     ) -> None:
-        """Calls task(job) for each job on some node, and waits for all; see launching.Workers.
+        """Calls task(job) for each job on a node, and waits for all; see launching.Workers.
 
-        jobs: what runner.job takes. Raises ConfigurationError if nothing can be submitted.
+        Raises ConfigurationError if nothing can be submitted.
         """
         self._check(jobs)
         self._prepare()
@@ -82,9 +80,9 @@ class Slurm:
             (self._folder / STOPPED).touch()
         queries.cancel(self.name)
 
-    def _check(self, jobs: list[Any]) -> None:
+    def _check(self, jobs: list[Job]) -> None:
         cores = self._settings.cpus_per_task
-        threads = max(execution.threads for _, _, execution in jobs)
+        threads = max(job.execution.threads for job in jobs)
         if threads > cores:
             raise ConfigurationError(
                 [f"threads={threads}: a job has {cores} cores (hydra.launcher.cpus_per_task)"]
@@ -102,7 +100,7 @@ class Slurm:
         # Nodes load code from there: nobody else is to put any.
         self._folder.mkdir(mode=0o700, parents=True)
 
-    def _submit(self, task, waiting: list[Any], time_limit: float | None, at_work: dict) -> list[Any]:
+    def _submit(self, task, waiting: list[Job], time_limit: float | None, at_work: dict) -> list[Job]:
         """Submits jobs, and adds them to those at work; returns what the cluster does not take by now."""
         batches, size = self._batches(task, waiting), self._settings.jobs_per_array
         submitting = executor(self._settings, self._folder, self.name, time_limit)
@@ -122,7 +120,7 @@ class Slurm:
             self._say(f"{len(array)} jobs submitted as {number} (scancel --name={self.name} ends all)")
         return []
 
-    def _batches(self, task, jobs: list[Any]) -> list[Batch]:
+    def _batches(self, task, jobs: list[Job]) -> list[Batch]:
         """Longest runs come first in `jobs`: dealt out in turn, every job gets some of them."""
         many = math.ceil(len(jobs) / self._settings.points_per_job)
         first, again = self._submitted, self._submitted > 0
@@ -148,7 +146,7 @@ class Slurm:
             time.sleep(pause)
         return ended
 
-    def _again(self, job_id: str, batch: Batch, state: queries.State, lost) -> list[Any]:
+    def _again(self, job_id: str, batch: Batch, state: queries.State, lost) -> list[Job]:
         """Looks what became of a job's runs, tells which are lost, and returns which to submit again."""
         if state.name == "COMPLETED":
             self._see(batch)
@@ -156,7 +154,7 @@ class Slurm:
             self._bad += 1
         note, again = read_note(batch.note_path), []
         for at, job in enumerate(batch.jobs):
-            if _recorded(job):
+            if job.is_recorded():
                 continue
             if at in note.failures:
                 lost(job, "failed", note.failures[at])
@@ -196,7 +194,7 @@ class Slurm:
                 runs.chmod(runs.stat().st_mode)
             note = read_note(batch.note_path)
             if all(
-                _recorded(job) or _claimed(job) or at in note.failures
+                job.is_recorded() or job.is_claimed() or at in note.failures
                 for at, job in enumerate(batch.jobs)
             ):
                 return
@@ -216,14 +214,3 @@ class Slurm:
                 self._folder.parent.rmdir()
         for path in self._folder.glob("*.pkl"):
             path.unlink(missing_ok=True)
-
-
-def _recorded(given) -> bool:
-    """Whether runner.job(given) has left a record, or another sweep has."""
-    values, results, execution = given
-    return Store(results).stamp(validate(values)) != execution.known
-
-
-def _claimed(given) -> bool:
-    values, results, _ = given
-    return is_alive(Store(results).claim_path(validate(values)))

@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from sphstudy.running.one_run import ELSEWHERE
-from sphstudy.store.lock import HEARTBEAT, LOST_AFTER
+from sphstudy.store.atomic import replacing
+from sphstudy.store.lock import ELSEWHERE, HEARTBEAT, LOST_AFTER
 
 STOPPED = "stopped"
 """A file of this name in the sweep's folder ends jobs that begin, and others before their next run."""
@@ -48,10 +48,8 @@ class Note:
 
     def write(self, path: Path) -> None:
         """Writes the note, whole or not at all; a disk that is full costs the note, not the run."""
-        temporary = path.with_suffix(".tmp")
-        with suppress(OSError):
+        with suppress(OSError), replacing(path, durable=False) as temporary:
             temporary.write_text(json.dumps({"at": self.at, "failures": self.failures}))
-            os.replace(temporary, path)
 
 
 def read_note(path: Path) -> Note:

@@ -7,9 +7,9 @@ from typing import Annotated, Any
 
 from pydantic import StringConstraints
 
+from sphstudy.configuration.execution import GRACE, thread_settings
 from sphstudy.errors import ConfigurationError
 from sphstudy.parameters import checked, count, described, number, parameters
-from sphstudy.running.pool import GRACE, thread_settings
 
 OneLine = Annotated[str, StringConstraints(min_length=1, pattern=r"^[^\x00-\x1f\x7f]+$")]
 Option = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z-]*(=[^\x00-\x1f\x7f]+)?$")]

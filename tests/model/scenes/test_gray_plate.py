@@ -31,7 +31,7 @@ def test_the_cells_of_the_particles_fill_the_plate(n, clamp):
     assert (np.abs(body.y).min() == 0.0) == (n % 2 == 1)
     left = body.x.min() - half
     assert left == pytest.approx(
-        -half if clamp == "rigid" else -gray_plate.held_length(config), rel=1e-12
+        -half if clamp == "rigid" else -config.scene.held_length(config.n), rel=1e-12
     )
 
 
@@ -46,7 +46,7 @@ def test_a_rigid_clamp_holds_the_column_at_the_wall():
 def test_an_insert_is_held_at_its_faces_and_nowhere_else():
     config, problem = built("n=6", "scene.clamp=insert", "scene.insert_length=1.5")
     body = problem.body
-    assert gray_plate.held_length(config) == pytest.approx(1.5 * 0.02)
+    assert config.scene.held_length(config.n) == pytest.approx(1.5 * 0.02)
     assert body.spacing_x == body.spacing_y
     inside = (body.x < 0.0) & (np.abs(body.y) > 0.01 - body.spacing_y)
     assert inside.sum() == 2 * 9

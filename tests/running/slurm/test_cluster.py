@@ -14,6 +14,7 @@ from sphstudy.running.slurm import jobs
 from sphstudy.running.slurm import settings as cluster_settings
 from sphstudy.running.slurm.jobs import Slurm
 from sphstudy.running.slurm.queries import UNKNOWN, State
+from sphstudy.store.job import Job
 from sphstudy.store.store import Store
 from tests.running.slurm.fake import DONE, FakeCluster
 
@@ -60,7 +61,7 @@ class Sweep:
         for name in ("states", "cancel"):
             monkeypatch.setattr(jobs.queries, name, getattr(fake, name))
         monkeypatch.setattr(jobs.queries, "remembered", lambda job: State(UNKNOWN))
-        self.jobs = [(p.config.as_dict(), str(folder), p.execution) for p in points]
+        self.jobs = [Job.of(p, self.store) for p in points]
         self.calls, self.lost = [], {}
         self.slurm = Slurm({**SETTINGS, **settings}, self.store.folder)
 
@@ -238,7 +239,7 @@ def test_a_cluster_that_takes_nothing_is_wrong_input(sweep):
 def test_a_run_of_another_sweep_is_left_to_it(sweep, monkeypatch):
     one = sweep(FakeCluster())
     monkeypatch.setattr(one, "task", lambda job: "elsewhere")
-    monkeypatch.setattr(jobs, "_claimed", lambda job: True)
+    monkeypatch.setattr(Job, "is_claimed", lambda job: True)
     assert one.run() == {}
 
 
@@ -265,7 +266,7 @@ def test_what_an_interrupted_sweep_left_goes_after_a_day(sweep):
 
 def test_more_threads_than_cores_are_refused(sweep):
     one = sweep(FakeCluster())
-    values, folder, execution = one.jobs[0]
+    many = replace(one.jobs[0], execution=replace(one.jobs[0].execution, threads=2))
     with pytest.raises(ConfigurationError, match="cpus_per_task"):
-        one.slurm.run(one.task, [(values, folder, replace(execution, threads=2))], None, print)
+        one.slurm.run(one.task, [many], None, print)
     assert one.fake.arrays == []

@@ -6,9 +6,9 @@ import time
 
 import pytest
 
-from sphstudy.running.one_run import ELSEWHERE
 from sphstudy.running.slurm import node
 from sphstudy.running.slurm.node import Batch, Note, read_note, work
+from sphstudy.store.lock import ELSEWHERE
 
 
 @pytest.fixture(autouse=True)

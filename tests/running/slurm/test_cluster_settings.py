@@ -9,6 +9,7 @@ from omegaconf import OmegaConf
 from sphstudy import catalogue
 from sphstudy.configuration.composition import session
 from sphstudy.errors import ConfigurationError
+from sphstudy.running.launching import workers_of
 from sphstudy.running.slurm import settings
 from sphstudy.running.slurm.settings import settings_of
 
@@ -74,6 +75,9 @@ def test_without_slurm_it_is_said_what_is_missing(values, monkeypatch):
 def test_the_command_line_answers_for_them():
     with session() as hydra:
         chosen = ["hydra/launcher=slurm", "hydra.launcher.setup=[module load python]"]
-        assert hydra.launcher(chosen).settings["setup"] == ["module load python"]
-        with pytest.raises(ConfigurationError, match="timeout_min"):
-            hydra.launcher(["hydra/launcher=slurm", "hydra.launcher.timeout_min=0"])
+        launcher = hydra.launcher(chosen)
+        assert launcher.settings["setup"] == ["module load python"]
+        assert workers_of(launcher, []) == launcher.settings["array_parallelism"]
+        wrong = hydra.launcher(["hydra/launcher=slurm", "hydra.launcher.timeout_min=0"])
+    with pytest.raises(ConfigurationError, match="timeout_min"):
+        workers_of(wrong, [])

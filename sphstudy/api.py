@@ -87,8 +87,8 @@ def _overrides(settings: dict[str, Any], swept: bool) -> list[str]:
 
 
 def _text(value: Any, swept: bool) -> str:
-    if isinstance(value, np.ndarray | np.generic | xr.DataArray):
-        value = value.tolist() if isinstance(value, np.ndarray | np.generic) else value.values.tolist()
+    if hasattr(value, "__array__"):
+        value = np.asarray(value).tolist()
     if isinstance(value, list | range) and swept:
         return ",".join(_text(item, False) for item in value)
     if isinstance(value, list | tuple | range):

@@ -54,10 +54,7 @@ _NOT_TAKEN = {
     ("--resolve",): "leave it out: --cfg job prints values resolved",
     ("--package", "-p"): "leave it out: --cfg job prints all settings",
     ("--config-path", "-cp"): "write --config-dir DIR, which adds a folder of settings",
-    (
-        "--config-name",
-        "-cn",
-    ): "there is one configuration; write key=value, or scene=NAME of your own DIR",
+    ("--config-name", "-cn"): "write key=value; scene=NAME of your own with --config-dir DIR",
     ("--experimental-rerun",): "repeat the command; --force runs again what is stored",
 }
 """Options of Hydra that have no place here, and what is written instead."""
@@ -169,7 +166,8 @@ def parse(arguments: list[str]) -> Request:
             words.append(word)
     if complaints:
         raise ConfigurationError(complaints)
-    found = Request(name, _module(name, options), tuple(words), tuple(settings), dict(_single(options)))
+    module = next((module for option, module in _INSTEAD.items() if option in options), name)
+    found = Request(name, module, tuple(words), tuple(settings), dict(_single(options)))
     _check(found, command)
     if command.settings and "results" in options:
         found = replace(found, settings=(*settings, f"results={found.results}"))
@@ -233,10 +231,6 @@ def _single(options: dict[str, list[str]]) -> Iterator[tuple[str, str]]:
         if not values[0]:
             raise ConfigurationError([f"{key}=: lacks its value"])
         yield key, values[0]
-
-
-def _module(name: str, options: dict[str, list[str]]) -> str:
-    return next((module for option, module in _INSTEAD.items() if option in options), name)
 
 
 def _check(request: Request, command: Command) -> None:

@@ -7,7 +7,7 @@ reference, checks its claims and writes its page to results/reports.
 Settings (key=value) replace what the study's file says.
 
     sphstudy study mode1                       the mode I grid of the thesis
-    sphstudy study thesis --dry-run            what would run, why, what it costs
+    sphstudy study thesis --dry-run            what would run, and the cost
     sphstudy study plate n=9,15                only these resolutions
 """
 

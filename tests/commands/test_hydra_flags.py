@@ -9,6 +9,7 @@ import yaml
 from sphstudy import catalogue
 from sphstudy.__main__ import main
 from sphstudy.configuration.composition import session
+from tests.support.made_up import Solver
 
 
 @pytest.fixture
@@ -36,7 +37,8 @@ def test_cfg_job_prints_what_would_run_and_runs_nothing(own, capsys):
     assert [path.name for path in own.parent.iterdir()] == ["own"]
 
 
-def test_a_scene_in_a_folder_of_the_users_is_found(own, capsys):
+def test_a_scene_in_a_folder_of_the_users_is_found(own, monkeypatch, capsys):
+    Solver(monkeypatch)
     assert main(["scene=soft", "h=1.5", "n=5"]) == 2
     assert "unknown scene 'soft'" in capsys.readouterr().err
     assert main(["--config-dir", str(own), "scene=soft", "method=tl", "h=1.5", "n=5"]) == 0

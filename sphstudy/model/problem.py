@@ -1,21 +1,36 @@
-"""The nouns of a scene: Body, Crack, Stages, together a Problem. Arrays and numbers only."""
+"""What is simulated: a Body, how its motion is prescribed, and Stages; together a Problem."""
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from sphstudy.model.constraints import Constraints
+from sphstudy.model.lattice import at_site
 from sphstudy.model.material import Material
 
 
 @dataclass(frozen=True)
 class Body:
-    """Particles in the reference configuration, stored row by row (x fastest); sums over pairs of
-    particles stored in random order take several times as long.
+    """Particles in the reference configuration, stored row by row (x fastest): in random order, sums over
+    pairs take several times as long.
 
-    x, y [N] (m); mass [N] per thickness (kg/m); spacing_x, spacing_y (m); tags: named masks [N]. sites
-    [2, N]: column and row of the lattice that each particle was put on, whatever moved it off since.
-    part [N]: which of several bodies a particle belongs to; None: all to one.
+    Attributes
+    ----------
+    x, y : array [N]
+        Positions (m).
+    mass : array [N]
+        Mass per thickness (kg/m).
+    spacing_x, spacing_y : float
+        Of the lattice (m).
+    material : Material
+        Of all particles.
+    tags : dict of str to array [N]
+        Masks with names.
+    sites : array [2, N], optional
+        Column and row of the lattice that each particle was put on, whatever moved it off since.
+    part : array [N], optional
+        Which of several bodies a particle belongs to; without it, all belong to one.
     """
 
     x: np.ndarray
@@ -28,6 +43,27 @@ class Body:
     sites: np.ndarray | None = None
     part: np.ndarray | None = None
 
+    @classmethod
+    def of_squares(
+        cls, x: np.ndarray, y: np.ndarray, spacing: float, material: Material, **rest: Any
+    ) -> "Body":
+        """A body whose particles stand for square cells.
+
+        Parameters
+        ----------
+        x, y : array [N]
+            Positions (m).
+        spacing : float
+            Side of a cell (m).
+        material : Material
+            Of all particles.
+        **rest
+            `tags`, `sites` and `part`.
+        """
+        return cls(
+            x, y, np.full(x.size, material.density * spacing**2), spacing, spacing, material, **rest
+        )
+
     @property
     def mean_spacing(self) -> float:
         """(Δx + Δy)/2 [m], what the relative smoothing radius h̃ refers to."""
@@ -35,9 +71,12 @@ class Body:
 
     @property
     def surface(self) -> np.ndarray:
-        """Mask [N] of the particles beside a site, diagonals too, that is empty or another part's.
+        """Mask [N] of the particles next to an empty site, diagonals too, or to another part's.
 
-        Raises ValueError if the body has no sites.
+        Raises
+        ------
+        ValueError
+            If the body has no sites.
         """
         if self.sites is None:
             raise ValueError("a body without a lattice does not know its surface")
@@ -54,9 +93,20 @@ class Body:
 class Stage:
     """One part of a run.
 
-    action "run": step freely for `duration` (s). "load": drive the constraints from amplitude 0 to 1.
-    "settle": hold them, until time `until` (s) or, if None, for as long as the solver's protocol says.
-    `crack_nodes`: how many of the crack's nodes are open.
+    Attributes
+    ----------
+    name : str
+        Label of the fields that are kept at its end.
+    action : {"run", "load", "settle"}
+        Steps freely; drives the constraints from amplitude 0 to 1; holds them.
+    duration : float, optional
+        Of a run (s).
+    until : float, optional
+        Time at which settling ends (s); without it, the solver's settings say how long it takes.
+    crack_nodes : int
+        Nodes of the crack that are open.
+    extension : bool
+        Whether the crack has been extended for it.
     """
 
     name: str
@@ -71,12 +121,28 @@ class Stage:
 class Problem:
     """A scene at one resolution, ready to be discretised.
 
-    velocity_x, velocity_y [N]: initial velocity (m/s). crack_first, crack_second [K]: the pairs of
-    particles that carry the crack's nodes, those of later extensions included. step_spacing: the Δ of
-    the time step rule (2.27) (m). energy_compliance: E* (Pa) and ν* by which strains follow from stresses
-    in the strain energy (3.18). tracked: index of the particle whose displacement is recorded.
-    displacement_x, displacement_y [N]: where particles start, from their places in the body (m); None: at
-    those. mirrors: "x" and "y", the coordinates whose change of sign leaves the motion as it is.
+    Attributes
+    ----------
+    body : Body
+        The particles.
+    constraints : Constraints
+        What is held or driven.
+    stages : tuple of Stage
+        In their order.
+    step_spacing : float
+        The Δ of the time step rule (2.27) (m).
+    energy_compliance : tuple of float
+        E* (Pa) and ν* by which strains follow from stresses in the strain energy (3.18).
+    velocity_x, velocity_y : array [N]
+        Initial velocity (m/s).
+    tracked : int
+        Index of the particle whose displacement is recorded.
+    crack_first, crack_second : array [K]
+        Pairs of particles that carry the crack's nodes, those of later extensions included.
+    displacement_x, displacement_y : array [N], optional
+        From the places in the body to where particles start (m).
+    mirrors : tuple of {"x", "y"}
+        Coordinates whose change of sign leaves the motion as it is.
     """
 
     body: Body
@@ -101,25 +167,3 @@ class Problem:
             if moved is not None:
                 place[row] += moved
         return place
-
-
-def lattice(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Positions of all particles of the lattice with columns x and rows y, x fastest."""
-    grid_y, grid_x = np.meshgrid(y, x, indexing="ij")
-    return grid_x.ravel(), grid_y.ravel()
-
-
-def lattice_sites(columns: int, rows: int) -> np.ndarray:
-    """Column and row [2, columns · rows] of each particle of a lattice, in the order of `lattice`."""
-    return np.stack([axis.ravel() for axis in np.meshgrid(np.arange(columns), np.arange(rows))])
-
-
-def at_site(sites: np.ndarray, column: np.ndarray, row: np.ndarray) -> np.ndarray:
-    """Index of the particle at each of these columns and rows, -1 where there is none; sites [2, N]."""
-    low = sites.min(axis=1) - 1
-    height = sites[1].max() - low[1] + 2
-    own = (sites[0] - low[0]) * height + sites[1] - low[1]
-    wanted = (column - low[0]) * height + row - low[1]
-    order = np.argsort(own)
-    place = np.minimum(np.searchsorted(own[order], wanted), own.size - 1)
-    return np.where(own[order][place] == wanted, order[place], -1)

@@ -8,7 +8,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.collections import PolyCollection
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullLocator
 from numpy.typing import ArrayLike
@@ -16,7 +15,6 @@ from numpy.typing import ArrayLike
 from sphstudy.analysis.results import Missing, Results
 from sphstudy.catalogue import scene_module
 from sphstudy.configuration.run_settings import RunConfig
-from sphstudy.metrics.regularity import nearest_distances
 from sphstudy.model.problem import Problem
 
 TEXT_WIDTH = 6.7
@@ -41,7 +39,17 @@ one behind a crack; reference: one in the background."""
 def particles(
     axes: Axes, x: ArrayLike, y: ArrayLike, kind: str, label: str = "", **line_options: Any
 ) -> Line2D:
-    """Marks particles at x, y [M] in the way of their kind (key of MARKS, and label if none is given)."""
+    """Marks particles.
+
+    Parameters
+    ----------
+    axes : Axes
+        Where.
+    x, y : array [M]
+        Positions.
+    kind : str
+        Key of MARKS; their label in the legend if `label` is empty.
+    """
     options = {"linestyle": "none", "label": label or kind, **MARKS[kind], **line_options}
     return axes.plot(x, y, **options)[0]
 
@@ -50,17 +58,27 @@ def footprints(
     axes: Axes,
     x: ArrayLike,
     y: ArrayLike,
-    spacing_x: float,
-    spacing_y: float,
+    width: float,
+    height: float,
     values: ArrayLike | None = None,
     **collection_options: Any,
 ) -> PolyCollection:
-    """Draws each particle at (x, y) [N] as the rectangle Δx by Δy (m) that it stands for.
+    """Draws each particle as the rectangle that it stands for, and zooms to what is drawn.
 
-    `values` [N] colours them, by `cmap`, `norm` or `clim` among the options, which go to PolyCollection
-    ("facecolor" for one colour). NaN leaves a rectangle out. Zooms to what is drawn; a later call widens.
+    Parameters
+    ----------
+    axes : Axes
+        Where. A later call widens what they show.
+    x, y : array [N]
+        Middles (m).
+    width, height : float
+        Of a rectangle (m), Δx and Δy.
+    values : array [N], optional
+        What colours them; NaN leaves a rectangle out.
+    **collection_options
+        Of PolyCollection: `cmap`, `norm`, `clim`; `facecolor` for one colour.
     """
-    corners = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]) * (spacing_x, spacing_y)
+    corners = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]) * (width, height)
     centres = np.column_stack((np.ravel(x), np.ravel(y)))
     # Edges in the colour of the fill close the hairlines between rectangles that do not quite meet.
     options: dict[str, Any] = {"linewidth": 0.2, "edgecolor": "face", "rasterized": True}
@@ -72,29 +90,9 @@ def footprints(
     return collection
 
 
-def beside_wall(states: list[tuple[str, xr.Dataset]], end: float) -> Figure:
-    """A panel for each state of a plate, (title, record at one snapshot): its particles with x < end (m).
-
-    Each particle at half its size. Below the title stands the smallest distance between two particles
-    there, over Δx.
-    """
-    drawing = Figure(figsize=(TEXT_WIDTH, 1.9), layout="constrained")
-    panels = drawing.subplots(1, len(states), sharex=True, sharey=True)
-    edges = []
-    for axes, (title, state) in zip(panels, states, strict=True):
-        x, y = state["x"].values, state["y"].values
-        size = np.array([float(state[f"spacing_{axis}"]) for axis in "xy"])
-        near = x < end
-        footprints(axes, x[near], y[near], *(0.5 * size), facecolor="C0", linewidth=0.0)
-        closest = nearest_distances(x, y)[near].min() / size[0]
-        edges.append((x.min() - size[0], end + size[0], y[near].min() - size[1], y[near].max() + size[1]))
-        axes.set_title(f"{title}\nclosest pair: {closest:.3f} $\\Delta x$")
-        axes.set(xlabel="$x$ (m)", aspect="equal")
-        axes.locator_params("x", nbins=4)
-        axes.grid(False)
-    left, right, bottom, top = zip(*edges, strict=True)
-    panels[0].set(xlim=(min(left), max(right)), ylim=(min(bottom), max(top)), ylabel="$y$ (m)")
-    return drawing
+def spacing(run: xr.Dataset) -> tuple[float, float]:
+    """Δx and Δy (m) of a record."""
+    return float(run["spacing_x"]), float(run["spacing_y"])
 
 
 def plain_logarithmic(axis: Axis) -> None:

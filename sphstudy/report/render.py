@@ -19,20 +19,20 @@ from sphstudy.analysis.results import Missing, Results
 from sphstudy.report.figure import STYLE, Animation, find
 
 _SCREEN = 96
-"""Pixels to an inch, as a page counts them."""
+"""Pixels of a page in an inch."""
 
 _COLOURS = 128
-"""Of an animation: enough for a map of colours, and fewer bytes than 256."""
+"""Colours of an animation: enough for a map of colours, and fewer bytes than 256."""
 
 _PIXELS = 18e6
-"""Of all frames of an animation together: a bit more than a megabyte."""
+"""Pixels of all frames of an animation together: a bit more than a megabyte."""
 
 
 @dataclass(frozen=True)
 class Drawing:
     """A figure of a study as drawn: a picture in base 64, or what is missing, or what went wrong.
 
-    width, height: of the picture, in pixels of a screen. wide: wider than the style's usual figure.
+    width, height: of the picture (pixels of a screen). wide: wider than the style's usual figure.
     """
 
     name: str
@@ -48,18 +48,28 @@ class Drawing:
 
     @property
     def title(self) -> str:
-        """What it is called: "Figure 4.2a", or its name where the thesis has no such figure."""
+        """The thesis's number as in "Figure 4.2a", or the name of a figure that the thesis lacks."""
         return f"Figure {self.number}" if self.number[:1].isdigit() else self.number.capitalize()
 
 
 def draw_all(results: Results, folder: Path) -> list[Drawing]:
-    """Draws every figure that the study lists into <folder>/<name>.png and .pdf, or .gif if it moves.
+    """Draws the figures of a study.
 
-    What goes wrong in drawing a figure is said in its place, and on standard error with the line.
+    Parameters
+    ----------
+    results : Results
+        The study, which lists them.
+    folder : Path
+        Where <name>.png and .pdf are written, and .gif of a figure that moves.
+
+    Returns
+    -------
+    list of Drawing
+        In the study's order. An error in drawing stands in them, and with its line on standard error.
     """
     folder.mkdir(parents=True, exist_ok=True)
     drawn = [_drawn(name, results, folder) for name in results.definition.figures]
-    # Writing files, not drawing, is what takes time: all processors share it.
+    # Writing files takes longer than drawing: all processors share it.
     jobs = min(loky.cpu_count(), sum(figure is not None for _, figure in drawn))
     if jobs < 2:
         return [_written(drawing, figure, folder) for drawing, figure in drawn]
@@ -69,7 +79,7 @@ def draw_all(results: Results, folder: Path) -> list[Drawing]:
 
 def _drawn(name: str, results: Results, folder: Path) -> tuple[Drawing, Figure | Animation | None]:
     """What the figure is, or why there is none."""
-    # What an earlier report drew must not outlive the data it was drawn from.
+    # The files of an earlier report must not outlive the data that it drew.
     for file in _files(name, folder):
         file.unlink(missing_ok=True)
     drawing = Drawing(name, number=name, caption="")
@@ -110,7 +120,7 @@ def _written(drawing: Drawing, drawn: Figure | Animation | None, folder: Path) -
 
 
 def _write_moving(animation: Animation, path: Path) -> None:
-    """Writes all frames, from the first to the last, which the figure shows afterwards. One palette."""
+    """Writes all frames with one palette; the figure shows the last one afterwards."""
     figure, frames = animation.figure, []
     pixels = animation.frames * _SCREEN**2 * figure.get_figwidth() * figure.get_figheight()
     resolution = _SCREEN * min(1.0, math.sqrt(_PIXELS / pixels))
@@ -121,14 +131,12 @@ def _write_moving(animation: Animation, path: Path) -> None:
         canvas.draw()
         # Laid out once: nothing but what moves may move.
         figure.set_layout_engine("none")
-        frames.append(Image.fromarray(np.array(canvas.buffer_rgba())).convert("RGB"))
-    width, height = frames[0].size
-    chosen = frames[:: max(1, len(frames) // 4)]
-    together = Image.new("RGB", (width, height * len(chosen)))
-    for k, frame in enumerate(chosen):
-        together.paste(frame, (0, height * k))
-    palette = together.quantize(_COLOURS, Image.Quantize.MAXCOVERAGE)
-    first, *others = (frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
+        frames.append(np.array(canvas.buffer_rgba())[:, :, :3])
+    palette = Image.fromarray(np.concatenate(frames[:: max(1, len(frames) // 4)])).quantize(
+        _COLOURS, Image.Quantize.MAXCOVERAGE
+    )
+    images = (Image.fromarray(frame) for frame in frames)
+    first, *others = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)
     milliseconds = round(1000.0 * animation.duration)
     first.save(path, save_all=True, append_images=others, duration=milliseconds, loop=0, optimize=True)
 

@@ -13,26 +13,39 @@ PERCENT = 100.0
 """Factor from a relative number to percent."""
 
 RADIUS = "relative smoothing radius $\\tilde{h}$"
-"""What the axis over h is called."""
+"""The label of an axis over h."""
 
-_MARKERS = "os^Dv"
+MARKERS = "os^Dv"
+"""Of the first, second … curve of a figure."""
 
 
 def curves(axes: Axes, grid: pd.DataFrame, symbol: str) -> None:
-    """A curve for each column n of a grid (see Results.grid), over its index h; NaN leaves a gap.
+    """Draws a curve for each column n of a grid (Results.grid) over its index h; NaN leaves a gap.
 
-    `symbol`: what n is called in the legend. The axis shows zero if that costs less than half of it.
+    Parameters
+    ----------
+    axes : Axes
+        Where. They show zero if that costs less than half of their height.
+    grid : pandas.DataFrame
+        Values over h (index) and n (columns).
+    symbol : str
+        What the legend calls n.
     """
-    for marker, (n, column) in zip(cycle(_MARKERS), grid.items(), strict=False):
+    for marker, (n, column) in zip(cycle(MARKERS), grid.items(), strict=False):
         axes.plot(grid.index, column, marker=marker, label=f"${symbol} = {n}$")
     axes.set_xticks(grid.index)
     lowest, highest = grid.min(axis=None), grid.max(axis=None)
     if min(abs(lowest), abs(highest)) < highest - lowest or lowest < 0.0 < highest:
-        axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+        zero_line(axes)
+
+
+def zero_line(axes: Axes) -> None:
+    """Draws a thin level line at zero, behind the data."""
+    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
 
 
 def ring_unstable(axes: Axes, results: Results, grid: pd.DataFrame) -> None:
-    """Rings around the values of a grid whose cells the study calls unstable."""
+    """Draws rings around the values of a grid (see `curves`) in cells that the study calls unstable."""
     rings = [
         (h, value)
         for n, column in grid.items()
@@ -47,6 +60,6 @@ def ring_unstable(axes: Axes, results: Results, grid: pd.DataFrame) -> None:
 
 
 def legend_above(figure: Figure, axes: Axes, columns: int) -> None:
-    """The legend of these axes above all axes of the figure, where it covers no data."""
+    """Puts the legend of these axes above all axes of the figure, where it covers no data."""
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=columns)

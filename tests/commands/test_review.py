@@ -152,8 +152,8 @@ def test_what_is_not_there_is_missing_and_not_passed_over(referenced, place, tmp
 
 def test_a_study_file_that_names_what_is_not_there_is_refused_before_anything_runs(place, capsys):
     for text, complaint in (
-        ("claims: [X9]", "claim X9: there is"),
-        ("figures: [plate.gone]", "figure plate.gone: there is no such figure"),
+        ("claims: [X9]", "unknown claim 'X9'; there are"),
+        ("figures: [plate.gone]", "unknown figure 'plate.gone'; "),
         ("shows: [gone]", "study gone: there is"),
     ):
         path = place / "studies" / "wrong.yaml"

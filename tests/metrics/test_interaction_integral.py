@@ -13,7 +13,7 @@ from sphstudy.metrics.interaction_integral import (
     weight_gradient,
 )
 from sphstudy.model.exact import williams
-from sphstudy.model.problem import lattice
+from sphstudy.model.lattice import lattice
 
 E, NU, K, SIDE = 6e6, 0.3, 35.8e3, 0.2
 T = K / np.sqrt(np.pi * 0.5 * SIDE)

@@ -1,26 +1,19 @@
 """A study with a point of every outcome, made up without running anything, and a reader of its page."""
 
-import json
 import sys
 from html.parser import HTMLParser
 from types import ModuleType
 
-import xarray as xr
 from matplotlib.figure import Figure
 
-from sphstudy import catalogue
-from sphstudy.analysis import results
 from sphstudy.analysis.claims import claim
 from sphstudy.analysis.claims.claim import NOT, Finding
 from sphstudy.analysis.results import Missing
-from sphstudy.metrics.metric import Metric
 from sphstudy.report import page
-from sphstudy.report.figure import figure
-from sphstudy.store import identity, record
-from sphstudy.store.netcdf import write
-from sphstudy.store.store import Store
+from sphstudy.report.figure import FigureDefinition
+from tests.support import results
+from tests.support.records import record
 
-COMMIT = "0123456789abcdef0123456789abcdef01234567"
 STUDY = """
 title: A sample of <everything> that may happen
 blocks:
@@ -64,52 +57,33 @@ def _lacking(results):
     raise Missing("no point with n=99")
 
 
-def _record(config, status, message, metrics, cpu_seconds):
-    run = record.with_metrics(xr.Dataset(), metrics, identity.metrics_version(config))
-    cost = {} if cpu_seconds is None else {"cpu_seconds": Metric(cpu_seconds, "s", "CPU time")}
-    if cost:
-        cost["particles"] = Metric(12 * config.n**2, "1", "particles")
-    attributes = {
-        "title": config.label,
-        "configuration": json.dumps(config.as_dict()),
-        "key": identity.key(config),
-        "numerics_version": identity.numerics_version(config),
-        "git_state": f"{COMMIT} (dirty)",
-        "sphstudy_version": "9.8.7",
-        "python_version": "3.12",
-        "library_versions": "numpy 2.0",
-        "processor": "Abacus",
-    }
-    run = record.with_outcome(run, status, message, cost, attributes)
-    run.attrs["date_created"] = "2026-01-02T03:04:05Z"
-    return run
+def _record(point, config):
+    """The record of a point, None for one that is not in the store."""
+    outcome = OUTCOMES.get((point["h"], point["n"]))
+    if outcome is None or "rho" in point["varied"]:
+        return None
+    status, message, error, seconds = outcome
+    error = ARTIFICIAL if point["varied"] else error
+    metrics = {} if error is None else {"frequency_error": error}
+    cost = (
+        {} if seconds is None else {"cpu_seconds": (seconds, "s"), "particles": (12 * config.n**2, "1")}
+    )
+    return record(config, status, message, metrics, cost)
 
 
 def load(folder, monkeypatch, hydra, stored=True):
     """Results of the study in an empty folder; with `stored`, most of its points are in the store."""
-    (folder / "sample.yaml").write_text(STUDY)
-    monkeypatch.setitem(catalogue.FOLDERS, "studies", folder)
     drawn = ModuleType("made_up")
-    for name in ("good", "unwritable", "broken", "lacking"):
-        setattr(drawn, name, figure("9.1", f"A {name} figure.")(globals()[f"_{name}"]))
+    for draw in (_good, _unwritable, _broken, _lacking):
+        name = draw.__name__.removeprefix("_")
+        setattr(drawn, name, FigureDefinition(f"made_up.{name}", "9.1", f"A {name} figure.", draw))
     monkeypatch.setitem(sys.modules, "sphstudy.report.figures.made_up", drawn)
     rule = claim.claim("T1", "All is well.", "page 1", reproduced="yes", partly="half", otherwise="no")
     monkeypatch.setattr(
         claim, "every_claim", lambda: {"T1": rule(lambda results: Finding(NOT, "1 of 2", "a bug"))}
     )
-    store = Store(folder / "results")
-    found = results.load("sample", hydra, [], str(store.folder))
-    if stored:
-        for row, point in found.table.iterrows():
-            outcome = OUTCOMES.get((point["h"], point["n"]))
-            if outcome and "rho" not in point["varied"]:
-                status, message, error, seconds = outcome
-                error = ARTIFICIAL if point["varied"] else error
-                metrics = {} if error is None else {"frequency_error": Metric(error, "1", "error of ω")}
-                config = found.config_at(row)
-                write(_record(config, status, message, metrics, seconds), store.record_path(config))
-        found = results.load("sample", hydra, [], str(store.folder))
-    return found
+    make = _record if stored else lambda point, config: None
+    return results.stored(folder, monkeypatch, hydra, STUDY, make, "sample")
 
 
 def write_page(found, folder):

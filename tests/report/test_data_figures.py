@@ -1,8 +1,5 @@
 """Figures of stored data draw from whatever part of it is there, and show the numbers that are stored."""
 
-import copy
-
-import matplotlib.style
 import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
@@ -24,6 +21,8 @@ from sphstudy.report.figures import (
     release_rates,
     von_mises,
 )
+from tests.support.figures import drawn, line
+from tests.support.results import altered
 
 STUDIES = ("plate", "bending", "bending_long", "mode1", "mode2", "choices", "conjectures")
 MODULES = (plate, von_mises, bending, crack, crack_field, release_rates, choices, conjectures)
@@ -40,7 +39,7 @@ def listed():
     for name in STUDIES:
         for label in study_file.load(name).figures:
             definition = figure.find(label)
-            if any(definition in vars(module).values() for module in MODULES):
+            if any(definition in figure.defined(module) for module in MODULES):
                 yield pytest.param(name, definition, id=f"{name}-{definition.number}")
 
 
@@ -73,42 +72,28 @@ def full(empty, records):
 
 
 def filled(found, records, random):
-    result = copy.copy(found)
-    result.table, result.attributes = found.table.assign(status="done"), {}
+    table, attributes = found.table.assign(status="done"), {}
     for scene in found.table["scene"].unique():
         rows = found.table["scene"] == scene
         for name, variable in records[scene].data_vars.items():
             if variable.attrs.get("group") == "metric":
-                result.attributes[name] = variable.attrs
-                result.table.loc[rows, name] = random.uniform(0.01, 0.5, rows.sum())
-    result._record = lambda row: records[result.table.at[row, "scene"]]
-    return result
+                attributes[name] = variable.attrs
+                table.loc[rows, name] = random.uniform(0.01, 0.5, rows.sum())
+    record = lambda row: records[table.at[row, "scene"]]  # noqa: E731
+    return altered(found, table=table, attributes=attributes, record=record)
 
 
 def without(found, column, rows):
     """The same results with a metric gone in some rows (a mask)."""
-    result = copy.copy(found)
-    result.table = found.table.copy()
+    result = altered(found)
     result.table.loc[rows, column] = np.nan
     return result
-
-
-def drawn(definition, found):
-    with matplotlib.style.context(figure.STYLE):
-        drawing = definition.draw(found)
-        drawing.canvas.draw()
-    return drawing
-
-
-def line(axes, label):
-    (found,) = (one for one in axes.get_lines() if one.get_label() == label)
-    return found.get_xydata().T
 
 
 @pytest.mark.parametrize(("name", "definition"), LISTED)
 def test_every_figure_draws(name, definition, full, monkeypatch):
     # The small record ends long before the thesis looks again.
-    monkeypatch.setattr(bending, "_LONG", 0.5)
+    monkeypatch.setattr(bending, "LONG", 0.5)
     drawing = drawn(definition, full[name])
     assert any(axes.has_data() for axes in drawing.axes)
 
@@ -124,7 +109,7 @@ def test_an_empty_store_is_said_to_lack_data(name, definition, empty):
 
 
 def test_every_figure_is_listed():
-    there = {d for m in MODULES for d in vars(m).values() if isinstance(d, figure.FigureDefinition)}
+    there = {definition for module in MODULES for definition in figure.defined(module)}
     assert there == {case.values[1] for case in LISTED}
     numbers = [case.values[1].number for case in LISTED]
     assert len(set(numbers)) == len(numbers)
@@ -133,11 +118,11 @@ def test_every_figure_is_listed():
 @pytest.mark.parametrize(
     ("definition", "name", "metric", "symbol"),
     [
-        (plate.frequency_error, "plate", "frequency_error", "n_y"),
-        (plate.amplitude_error, "plate", "amplitude_error", "n_y"),
-        (plate.frequency_error_2d, "plate", "frequency_error_2d", "n_y"),
-        (release_rates.mode1_propagation, "mode1", "G1_error", "n_x"),
-        (release_rates.mode2_projection, "mode2", "G2_error", "n_x"),
+        ("plate.frequency_error", "plate", "frequency_error", "n_y"),
+        ("plate.amplitude_error", "plate", "amplitude_error", "n_y"),
+        ("plate.frequency_error_2d", "plate", "frequency_error_2d", "n_y"),
+        ("release_rates.mode1_propagation", "mode1", "G1_error", "n_x"),
+        ("release_rates.mode2_projection", "mode2", "G2_error", "n_x"),
     ],
 )
 def test_curves_carry_the_table_and_leave_gaps(definition, name, metric, symbol, full):
@@ -154,7 +139,7 @@ def test_curves_carry_the_table_and_leave_gaps(definition, name, metric, symbol,
 
 
 def test_unstable_cells_are_ringed_and_no_others(full):
-    (axes,) = drawn(plate.frequency_error, full["plate"]).axes
+    (axes,) = drawn("plate.frequency_error", full["plate"]).axes
     h, shown = line(axes, "unstable cell")
     np.testing.assert_array_equal(h, [1.3, 1.3])
     grid = full["plate"].grid("frequency_error")
@@ -162,15 +147,17 @@ def test_unstable_cells_are_ringed_and_no_others(full):
 
 
 def test_the_axis_shows_zero_where_that_is_cheap(full):
-    near, far = copy.copy(full["mode1"]), copy.copy(full["mode1"])
+    near, far = altered(full["mode1"]), altered(full["mode1"])
     spread = np.linspace(0.0, 0.1, len(near.table))
     near.table, far.table = (near.table.assign(G2_error=low + spread) for low in (0.05, 0.2))
-    limits = [drawn(release_rates.mode1_projection, found).axes[0].get_ylim()[0] for found in (near, far)]
+    limits = [
+        drawn("release_rates.mode1_projection", found).axes[0].get_ylim()[0] for found in (near, far)
+    ]
     assert limits[0] <= 0.0 < limits[1]
 
 
 def test_norms_are_divided_by_their_maximum_on_the_grid(full):
-    drawing = drawn(release_rates.mode2_stress_norms, full["mode2"])
+    drawing = drawn("release_rates.mode2_stress_norms", full["mode2"])
     for axes, component in zip(drawing.axes, ("xx", "yy", "xy"), strict=True):
         grid = full["mode2"].grid(f"stress_{component}_rms")
         curves = [line(axes, f"$n_x = {n}$")[1] for n in grid]
@@ -197,7 +184,7 @@ def test_the_tip_is_drawn_with_fit_and_beam(full, records):
 
 def test_stress_fields_are_those_of_the_snapshot_asked_for(full, records):
     run = records["plate"]
-    for definition, time in ((von_mises.fine_medium, 1.5681), (von_mises.coarse_narrow, 1.5648)):
+    for definition, time in (("von_mises.fine_medium", 1.5681), ("von_mises.coarse_narrow", 1.5648)):
         state = von_mises.snapshot_at(run, time)
         assert abs(float(state["snapshot_time"]) - time) <= float(run["time_step"])
         xx, yy, xy = (state[f"stress_{c}"].values for c in ("xx", "yy", "xy"))
@@ -222,7 +209,10 @@ def test_the_centreline_is_drawn_in_whole_and_in_parts(full, records):
     exact = beam.bent_centreline(x0, -0.04, 1.0, float(run["spacing_x"])) / 1e-3
     np.testing.assert_allclose(line(whole, "beam"), [x0, exact])
     np.testing.assert_allclose(difference.get_lines()[0].get_ydata(), u_y - exact, atol=1e-12)
-    for definition, part in ((bending.centreline_wall, x0 <= 0.15), (bending.centreline_end, x0 >= 0.9)):
+    for definition, part in (
+        ("bending.centreline_wall", x0 <= 0.15),
+        ("bending.centreline_end", x0 >= 0.9),
+    ):
         (axes,) = drawn(definition, full["bending"]).axes
         np.testing.assert_allclose(line(axes, "SPH"), [x0[part], u_y[part]])
 
@@ -230,7 +220,7 @@ def test_the_centreline_is_drawn_in_whole_and_in_parts(full, records):
 def test_positions_long_after_wait_for_their_time(full, monkeypatch):
     with pytest.raises(Missing, match="150 s"):
         drawn(bending.positions_long_after, full["bending_long"])
-    monkeypatch.setattr(bending, "_LONG", 0.5)
+    monkeypatch.setattr(bending, "LONG", 0.5)
     drawing = drawn(bending.positions_long_after, full["bending_long"])
     assert drawing.axes[0].get_title() == "$n_y = 5$, $\\tilde{h} = 1.5$, $t = 1$ s"
 
@@ -238,11 +228,11 @@ def test_positions_long_after_wait_for_their_time(full, monkeypatch):
 @pytest.mark.parametrize(
     ("definition", "mode", "tag", "component"),
     [
-        (crack.mode1_faces, 1, "faces", "y"),
-        (crack.mode2_faces, 2, "faces", "x"),
-        (crack.mode1_stress_xy, 1, "ahead", "xy"),
-        (crack.mode2_stress_yy, 2, "ahead", "yy"),
-        (crack.mode2_stress_xy, 2, "ahead", "xy"),
+        ("crack.mode1_faces", 1, "faces", "y"),
+        ("crack.mode2_faces", 2, "faces", "x"),
+        ("crack.mode1_stress_xy", 1, "ahead", "xy"),
+        ("crack.mode2_stress_yy", 2, "ahead", "yy"),
+        ("crack.mode2_stress_xy", 2, "ahead", "xy"),
     ],
 )
 def test_rows_beside_the_crack_and_the_exact_curves(definition, mode, tag, component, full, records):
@@ -274,7 +264,7 @@ def test_rows_beside_the_crack_and_the_exact_curves(definition, mode, tag, compo
 
 def test_the_deformed_square_stands_at_its_positions(full, records):
     state = records["mode1"].isel(snapshot=1)
-    drawing = drawn(crack_field.mode1_field, full["mode1"])
+    drawing = drawn("crack_field.mode1_field", full["mode1"])
     (field,) = (c for c in drawing.axes[0].collections if isinstance(c, PolyCollection))
     centres = np.array([path.vertices[:4].mean(axis=0) for path in field.get_paths()])
     np.testing.assert_allclose(centres, np.column_stack((state["x"].values, state["y"].values)))
@@ -284,8 +274,7 @@ def test_the_deformed_square_stands_at_its_positions(full, records):
 
 
 def test_effects_have_size_sign_and_what_is_missing(full):
-    found = copy.copy(full["choices"])
-    found.table = found.table.copy()
+    found = altered(full["choices"])
     rows = found.table["block"] == "mode1"
     changes = {
         "": 0.0,
@@ -299,7 +288,7 @@ def test_effects_have_size_sign_and_what_is_missing(full):
     gone = rows & (found.table["varied"] == "method.visibility=exclusive")
     found.table.loc[gone, ["G1_error", "status"]] = [np.nan, "diverged"]
 
-    axes = drawn(choices.mode1, found).axes[0]
+    axes = drawn("choices.mode1", found).axes[0]
     labels = [label.get_text() for label in axes.get_yticklabels()]
     assert labels[-1] == "control"
     marks = {labels[round(one.get_ydata()[0])]: one for one in axes.get_lines()}

@@ -1,22 +1,21 @@
 """Figures and tables of work and precision show what is stored, failed points included."""
 
-import copy
-
-import matplotlib.style
 import numpy as np
 import pytest
 
 from sphstudy.analysis import results, work_precision
 from sphstudy.analysis.results import Missing
 from sphstudy.configuration.composition import session
-from sphstudy.report import cheapest, figure
+from sphstudy.report import cheapest
 from sphstudy.report.figures import precision as figures
+from tests.support.figures import drawn
+from tests.support.results import altered
 
 SCENES = {
-    "plate": figures.plate,
-    "bending": figures.bending,
-    "mode1": figures.mode1,
-    "mode2": figures.mode2,
+    "plate": "precision.plate",
+    "bending": "precision.bending",
+    "mode1": "precision.mode1",
+    "mode2": "precision.mode2",
 }
 
 
@@ -30,7 +29,7 @@ def empty(tmp_path_factory):
 @pytest.fixture(scope="module")
 def full(empty):
     """The same with made-up numbers: errors of first order in 1/n, costs that grow with n."""
-    found = copy.copy(empty)
+    found = altered(empty)
     table = empty.table.assign(status="done", steps=100.0, compile_seconds=3.0)
     table["particles"] = 12.0 * table["n"] ** 2
     table["cpu_seconds"] = 1e-5 * table["particles"] * table["h"]
@@ -40,13 +39,6 @@ def full(empty):
     table.loc[beyond, "status"] = "diverged"
     found.table = table
     return found
-
-
-def drawn(definition, found):
-    with matplotlib.style.context(figure.STYLE):
-        drawing = definition.draw(found)
-        drawing.canvas.draw()
-    return drawing
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -65,11 +57,10 @@ def test_every_point_is_there_at_its_cost(scene, full):
 
 
 def test_lucky_points_are_hollow_and_not_on_the_front(full):
-    found = copy.copy(full)
+    found = altered(full)
     lucky = (full.table["solve"] == "modes") & (full.table["h"] == 1.3) & (full.table["n"] == 7)
-    found.table = full.table.copy()
     found.table.loc[lucky, "frequency_error_2d"] = 1e-6
-    axes = drawn(figures.plate, found).axes[0]
+    axes = drawn("precision.plate", found).axes[0]
     white = [one for one in axes.get_lines() if one.get_markerfacecolor() == "white"]
     (point,) = np.concatenate([one.get_xydata() for one in white])
     assert point[1] == pytest.approx(1e-4)

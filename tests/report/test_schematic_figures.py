@@ -20,8 +20,7 @@ FIGURES = {
     definition: DRAWN_FROM[module.__name__.rpartition(".")[2]]
     or ("plate" if definition.number in ("3.1", "3.2") else "bending")
     for module in (method, plate_geometry, crack_geometry)
-    for definition in vars(module).values()
-    if isinstance(definition, figure.FigureDefinition)
+    for definition in figure.defined(module)
 }
 
 

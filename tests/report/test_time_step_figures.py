@@ -1,17 +1,15 @@
 """Time steps: what is made of stored points, and that figures and tables show it."""
 
-import copy
-
-import matplotlib.style
 import numpy as np
 import pytest
 
 from sphstudy.analysis import results, time_steps
 from sphstudy.analysis.results import Missing
 from sphstudy.configuration.composition import session
-from sphstudy.report import figure
 from sphstudy.report import time_steps as step_tables
 from sphstudy.report.figures import time_step as figures
+from tests.support.figures import drawn
+from tests.support.results import altered
 
 NONE = "no stable step found down to C = 0.2"
 ERROR = -0.02
@@ -29,7 +27,7 @@ def full(empty):
     """The same with made-up numbers: limits C = h (0.985 of what is predicted), none without damping by
     Heun's method; errors that change by 0.3 (Δt/limit)², and runs that diverge beyond the limit.
     """
-    found = copy.copy(empty)
+    found = altered(empty)
     table = empty.table.assign(status="done", message="")
     searched, undamped = table["solve"] == "limit", table["block"].str.endswith("undamped")
     table["predicted_courant"] = (table["h"] / 0.985).where(searched & (table["method"] == "tl"))
@@ -43,13 +41,6 @@ def full(empty):
     table.loc[~searched & (share > 1.0), "status"] = "diverged"
     found.table = table
     return found
-
-
-def drawn(definition, found):
-    with matplotlib.style.context(figure.STYLE):
-        drawing = definition.draw(found)
-        drawing.canvas.draw()
-    return drawing
 
 
 def test_limits_are_read_with_the_integrator_that_ran(full):

@@ -1,8 +1,5 @@
 """Figures of the total Lagrangian method, alone and beside the thesis's, show what is stored."""
 
-import copy
-
-import matplotlib.style
 import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
@@ -17,7 +14,15 @@ from sphstudy.metrics.regularity import nearest_distances
 from sphstudy.metrics.von_mises import von_mises
 from sphstudy.model.exact import williams
 from sphstudy.report import figure
-from sphstudy.report.figures import crack_field, side_by_side, side_by_side_fields, total_lagrangian
+from sphstudy.report.figures import (
+    bending,
+    crack_field,
+    side_by_side,
+    side_by_side_fields,
+    total_lagrangian,
+)
+from tests.support.figures import drawn, line
+from tests.support.results import altered
 
 MODULES = (side_by_side, side_by_side_fields, total_lagrangian)
 STUDIES = ("thesis_vs_tl", "tl_plate", "tl_bending", "tl_mode1", "tl_mode2")
@@ -70,44 +75,31 @@ def full(empty, records):
     """The same studies with made-up metrics, and the small record of scene and method at every point."""
     random, found = np.random.default_rng(4), {}
     for name, without in empty.items():
-        result = found[name] = copy.copy(without)
         rows = len(without.table)
         made_up = {metric: random.uniform(0.01, 0.03, rows) for metric in METRICS}
         spacing = 0.2 / without.table["n"]
-        result.table = without.table.assign(status="done", spacing=spacing, **made_up)
-        result._record = lambda row, table=result.table: records[
-            table.at[row, "scene"], table.at[row, "method"]
-        ]
-        result._other = lambda other, overrides: found[other]
+        table = without.table.assign(status="done", spacing=spacing, **made_up)
+        found[name] = altered(
+            without,
+            table=table,
+            record=lambda row, table=table: records[table.at[row, "scene"], table.at[row, "method"]],
+            other=lambda other, overrides: found[other],
+        )
     return found
 
 
 @pytest.fixture(autouse=True)
 def early(monkeypatch):
     monkeypatch.setattr(total_lagrangian, "EARLY", EARLY)
-    for module in (total_lagrangian, side_by_side_fields):
-        monkeypatch.setattr(module, "LONG", LONG)
+    monkeypatch.setattr(bending, "LONG", LONG)
 
 
 def changed(found, rows, **values):
     """The same results with other values in some rows (a mask)."""
-    result = copy.copy(found)
-    result.table = found.table.copy()
+    result = altered(found)
     for column, value in values.items():
         result.table.loc[rows, column] = value
     return result
-
-
-def drawn(definition, found):
-    with matplotlib.style.context(figure.STYLE):
-        drawing = definition.draw(found)
-        drawing.canvas.draw()
-    return drawing
-
-
-def line(axes, label):
-    (found,) = (one for one in axes.get_lines() if one.get_label() == label)
-    return found.get_xydata().T
 
 
 def centres(axes):
@@ -128,7 +120,7 @@ def test_an_empty_store_is_said_to_lack_data(name, definition, empty):
 
 
 def test_every_figure_is_listed_once():
-    there = {d for m in MODULES for d in vars(m).values() if isinstance(d, figure.FigureDefinition)}
+    there = {definition for module in MODULES for definition in figure.defined(module)}
     listed = [case.values[1] for case in LISTED]
     assert there == set(listed)
     assert len({definition.number for definition in listed}) == len(listed)
@@ -139,7 +131,10 @@ def test_each_method_has_its_panel_and_its_own_numbers(full):
     cases = [(side_by_side.plate_frequency, "plate", ["frequency_error_2d"], "n_y")]
     cases += [
         (rates, f"mode{mode}", ["G1_error", "G2_error", f"K_{'I' * mode}_integral_error"], "n_x")
-        for mode, rates in ((1, side_by_side.mode1_release_rates), (2, side_by_side.mode2_release_rates))
+        for mode, rates in (
+            (1, "side_by_side.mode1_release_rates"),
+            (2, "side_by_side.mode2_release_rates"),
+        )
     ]
     for definition, scene, metrics, symbol in cases:
         panels = np.reshape(drawn(definition, found).axes, (-1, 2))
@@ -219,7 +214,7 @@ def test_runs_without_an_error_have_no_place_in_the_cost(full):
         for name, found in full.items()
     }
     found = lacking["thesis_vs_tl"]
-    found._other = lambda name, overrides: lacking[name]
+    found = altered(found, other=lambda name, overrides: lacking[name])
     with pytest.raises(Missing, match="no point of scene mode1 has K_I_integral_error"):
         drawn(side_by_side.error_and_cost, found)
 
@@ -267,11 +262,13 @@ def test_particles_beside_the_wall_stand_where_they_are(definition, name, panels
 
 
 def test_positions_wait_for_both_runs_and_for_their_time(full, empty, monkeypatch):
-    found = copy.copy(full["thesis_vs_tl"])
-    found._other = lambda name, overrides: (empty if name == "bending_long" else full)[name]
+    found = altered(
+        full["thesis_vs_tl"],
+        other=lambda name, overrides: (empty if name == "bending_long" else full)[name],
+    )
     with pytest.raises(Missing, match=r"bending_long: bending h=1\.7 n=9 is missing"):
         drawn(side_by_side_fields.bending_positions, found)
-    monkeypatch.setattr(total_lagrangian, "LONG", 150.0)
+    monkeypatch.setattr(bending, "LONG", 150.0)
     with pytest.raises(Missing, match="t = 150 s"):
         drawn(total_lagrangian.bending_held, full["tl_bending"])
 
@@ -365,7 +362,7 @@ def test_the_spacing_needs_the_h_that_is_refined(full):
     found = full["tl_mode1"]
     with pytest.raises(Missing, match=r"h=1\.3"):
         drawn(
-            total_lagrangian.mode1_stress_intensity,
+            "total_lagrangian.mode1_stress_intensity",
             changed(found, found.table["h"] == 1.3, G1_error=np.nan),
         )
 
@@ -374,7 +371,7 @@ def test_one_resolution_is_drawn_without_a_limit(full):
     found = full["tl_mode1"]
     gone = found.table["n"] != 40
     axes, zero = drawn(
-        total_lagrangian.mode1_stress_intensity,
+        "total_lagrangian.mode1_stress_intensity",
         changed(found, gone, G1_error=np.nan, J_error=np.nan, K_I_integral_error=np.nan),
     ).axes
     assert len(line(axes, "$J$")[0]) == 1

@@ -4,10 +4,8 @@ import numpy as np
 import xarray as xr
 
 from sphstudy.configuration.composition import session
-from sphstudy.metrics.metric import Metric
 from sphstudy.running import one_run
-from sphstudy.running.one_run import _attributes
-from sphstudy.store import identity, record
+from tests.support.records import record
 
 TINY = ("scene=plate", "method=tl", "h=1.3", "scene.periods=0.01")
 """Where such a run is computed after all, it takes a hundredth of a second."""
@@ -21,12 +19,9 @@ def points(*arguments):
 
 def solved(config, *_):
     """A record that is done, without a solver."""
-    cost = {name: Metric(1.0, "1", name) for name in ("cpu_seconds", "steps", "particles")}
-    run = xr.Dataset({"x": ("particle", np.random.default_rng(config.n).random(4000))})
-    run = record.with_outcome(run, "done", "", cost, _attributes(config))
-    return record.with_metrics(
-        run, {"error": Metric(0.1, "1", "error")}, identity.metrics_version(config)
-    )
+    cost = dict.fromkeys(("cpu_seconds", "steps", "particles"), (1.0, "1"))
+    fields = xr.Dataset({"x": ("particle", np.random.default_rng(config.n).random(4000))})
+    return record(config, metrics={"error": 0.1}, cost=cost, fields=fields)
 
 
 class Solver:

@@ -1,10 +1,10 @@
 """Claims about the bent plate (thesis 4.2, 5.2)."""
 
-from sphstudy.analysis.claims import stability
-from sphstudy.analysis.claims.claim import REPRODUCED, Finding, claim
-from sphstudy.analysis.claims.reading import interval, size, verdict
+from sphstudy.analysis.claims.claim import Finding, claim
+from sphstudy.analysis.claims.reading import finding, interval
+from sphstudy.analysis.claims.tensile_instability import unstable_side
 from sphstudy.analysis.results import Results
-from sphstudy.text import number
+from sphstudy.text import number, percent
 
 CASE = {"h": 1.7, "n": 21}
 """The case that the thesis shows."""
@@ -34,7 +34,7 @@ particles.
     "(n, h̃) = (21, 1.7) at 11 s: the centreline agrees very well with the beam; the error of the "
     "end angle is of order 0.1 (degrees: 0.1 rad would exceed the angle itself).",
     "section 4.2, figure 4.6",
-    reproduced=f"the largest error of the centreline is at most {size(AGREES)} of the deflection, "
+    reproduced=f"the largest error of the centreline is at most {percent(AGREES)} of the deflection, "
     f"and that of the end angle lies in {interval(ORDER_OF_A_TENTH)} degrees",
     partly="the centreline does, or the end angle is not further off",
     otherwise="neither",
@@ -46,13 +46,13 @@ def agreement(results: Results) -> Finding:
     error /= abs(scene.deflection * scene.L)
     angle = abs(results.value("end_angle_error", CASE, "grid"))
     least, most = ORDER_OF_A_TENTH
-    found = verdict(error <= AGREES and least <= angle <= most, error <= AGREES or angle <= most)
     told = (
-        f"centreline within {size(error)} of the deflection, end angle {number(angle, 2)} degrees off "
+        f"centreline within {percent(error)} of the deflection, end angle {number(angle, 2)} degrees off "
         f"({number(abs(results.value('end_angle_error_2d', CASE, 'grid')), 2)} against 2-D elasticity)"
     )
-    cause = stability.unstable_side(CASE["h"])
-    return Finding(found, told, "" if found == REPRODUCED else cause)
+    everything = error <= AGREES and least <= angle <= most
+    cause = unstable_side(CASE["h"])
+    return finding(everything, error <= AGREES or angle <= most, told, cause)
 
 
 @claim(
@@ -76,7 +76,7 @@ def boundary_effects(results: Results) -> Finding:
     ]
     millimetres = [number(1e3 * jag, 2) for jag in (wall, middle, end)]
     told = "largest jag {} mm at the wall, {} mm in the middle, {} mm at the end".format(*millimetres)
-    return Finding(verdict(all(seen), any(seen)), told)
+    return finding(all(seen), any(seen), told)
 
 
 @claim(
@@ -84,8 +84,8 @@ def boundary_effects(results: Results) -> Finding:
     "Positions are regular at 11 s; after 150 s they are irregular for 0 < x < 0.3 m and clumped "
     "in lines below the axis there.",
     "section 4.2, figures 4.8 and 4.9 (for n = 21)",
-    reproduced=f"the spread of nearest-neighbour distances is at most {size(REGULAR)} everywhere "
-    f"at 11 s; at the end it is at least {size(IRREGULAR)} below the axis near the wall, and "
+    reproduced=f"the spread of nearest-neighbour distances is at most {percent(REGULAR)} everywhere "
+    f"at 11 s; at the end it is at least {percent(IRREGULAR)} below the axis near the wall, and "
     "larger there than above and beyond",
     partly="it is regular at 11 s and has at least doubled below the axis near the wall, where it "
     "is largest",
@@ -99,21 +99,19 @@ def clumping(results: Results) -> Finding:
     closest = results.value("spacing_smallest_bottom", block="grid")
     regular = max(early.values()) <= REGULAR
     worst = late["bottom"] > max(late["top"], late["rest"])
-    found = verdict(
-        regular and worst and late["bottom"] >= IRREGULAR,
-        regular and worst and late["bottom"] >= 2.0 * early["bottom"],
-    )
     config = results.config(block="grid")
     told = (
         f"n = {config.n}: spread at 11 s "
-        + ", ".join(f"{size(early[p])} {p}" for p in parts)
+        + ", ".join(f"{percent(early[p])} {p}" for p in parts)
         + f"; at {config.scene.end_time:g} s "
-        + ", ".join(f"{size(late[p])} {p}" for p in parts)
-        + f"; closest below {number(closest, 3)} Δ; {stability.unstable_side(config.h)}"
+        + ", ".join(f"{percent(late[p])} {p}" for p in parts)
+        + f"; closest below {number(closest, 3)} Δ; {unstable_side(config.h)}"
     )
     cause = (
         f"below the axis the spread is {number(late['bottom'] / early['bottom'], 2)} times that at 11 s"
     )
     if config.n != CASE["n"]:
         cause += f"; the thesis shows n = {CASE['n']}, computed is n = {config.n}"
-    return Finding(found, told, "" if found == REPRODUCED else cause)
+    grown = late["bottom"] >= 2.0 * early["bottom"]
+    everything = regular and worst and late["bottom"] >= IRREGULAR
+    return finding(everything, regular and worst and grown, told, cause)

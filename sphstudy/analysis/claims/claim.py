@@ -13,7 +13,7 @@ from functools import cache
 from sphstudy.analysis import claims
 from sphstudy.analysis.results import Missing, Results
 from sphstudy.configuration import study_file
-from sphstudy.errors import ConfigurationError
+from sphstudy.errors import ConfigurationError, unknown
 
 REPRODUCED, PARTLY, NOT, UNKNOWN = "reproduced", "partly", "not reproduced", "no data"
 """Verdicts. UNKNOWN: the store lacks what the rule needs."""
@@ -71,7 +71,7 @@ def every_claim() -> dict[str, Claim]:
 def find(id: str) -> Claim:
     """The claim with this id. Raises ConfigurationError if there is none."""
     if id not in every_claim():
-        raise ConfigurationError([f"claim {id}: there is {', '.join(every_claim())}"])
+        raise ConfigurationError([unknown("claim", id, every_claim())])
     return every_claim()[id]
 
 

@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd
 
 from sphstudy.analysis.claims.claim import Finding, claim
-from sphstudy.analysis.claims.reading import because, size, verdict
-from sphstudy.analysis.claims.stability import (
+from sphstudy.analysis.claims.reading import because, finding
+from sphstudy.analysis.claims.tensile_instability import (
     FULL,
     INFLECTION,
     THOUSANDTH,
@@ -21,7 +21,7 @@ from sphstudy.analysis.claims.stability import (
 )
 from sphstudy.analysis.results import Missing, Results
 from sphstudy.metrics.roughness import VISIBLE
-from sphstudy.text import number
+from sphstudy.text import number, percent
 
 KERNEL, STRESS = "method.kernel", "method.artificial_stress"
 
@@ -73,12 +73,12 @@ def spikes(results: Results) -> Finding:
     stress_driven = loaded >= VISIBLE > unloaded
     follows = tensile.min() > compressive.max()
     told = (
-        f"roughness of the cubic spline at 1.3: {size(loaded)} at full load, {size(unloaded)} at a "
+        f"roughness of the cubic spline at 1.3: {percent(loaded)} at full load, {percent(unloaded)} at a "
         f"thousandth; growth with the load (kernel, h̃): {_listed(full, growth)}; at least "
         f"{number(tensile.min(), 3)} where W'' > 0, at most {number(compressive.max(), 3)} where W'' < 0"
     )
     cause = "" if follows else "the growth does not follow the sign of W'' alone"
-    return Finding(verdict(stress_driven and follows, stress_driven), told, cause)
+    return finding(stress_driven and follows, stress_driven, told, cause)
 
 
 @claim(
@@ -109,16 +109,15 @@ def clumping(results: Results) -> Finding:
     told = (
         f"n = {case['n']}, cubic spline at 1.7, spread at the end over that at 11 s: "
         f"{number(grown['bottom'], 3)} below, {number(grown['top'], 3)} above, {number(unloaded, 3)} "
-        f"below at a thousandth of the load (to {size(case['spacing_spread_bottom'])} and "
-        f"{size(little['spacing_spread_bottom'])}); below over above (kernel, h̃): "
+        f"below at a thousandth of the load (to {percent(case['spacing_spread_bottom'])} and "
+        f"{percent(little['spacing_spread_bottom'])}); below over above (kernel, h̃): "
         f"{_listed(points, ratio)}"
     )
     reasons = [unstable_side(1.7)] if follows else ["the spreads do not follow the sign of W''"]
     if not stress_driven:
         reasons.append("irregularity grows without load too, if less")
     everything = below and stress_driven and follows
-    found = verdict(everything, below and (stress_driven or follows))
-    return Finding(found, told, "" if everything else because(*reasons))
+    return finding(everything, below and (stress_driven or follows), told, because(*reasons))
 
 
 def _growth(point: pd.Series, side: str) -> float:
@@ -158,8 +157,8 @@ def antisymmetry(results: Results) -> Finding:
         "other, and pairs see each other round the tip on one side that do not on the other; the "
         "averages at a thousandth of the load say how much of the defects goes with the displacements"
     )
-    return Finding(verdict(all(whole), any(somewhere)), "; ".join(told), "" if all(whole) else cause)
+    return finding(all(whole), any(somewhere), "; ".join(told), cause)
 
 
 def _row(values: Iterable[float]) -> str:
-    return ", ".join(size(value) for value in values)
+    return ", ".join(percent(value) for value in values)

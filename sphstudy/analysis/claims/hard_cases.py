@@ -1,8 +1,8 @@
 """What theory says of hard cases, each by a run and its counter-run (study `stability`)."""
 
-from sphstudy.analysis.claims import stability
-from sphstudy.analysis.claims.claim import PARTLY, REPRODUCED, Finding, claim
-from sphstudy.analysis.claims.reading import percent, verdict
+from sphstudy.analysis.claims.claim import Finding, claim
+from sphstudy.analysis.claims.reading import finding, signed
+from sphstudy.analysis.claims.tensile_instability import unstable_side
 from sphstudy.analysis.results import Missing, Results
 from sphstudy.analysis.stability.cases import judged
 from sphstudy.analysis.stability.judge import DONE
@@ -48,7 +48,7 @@ def _size(value: float) -> str:
 @claim(
     "H1",
     "The total Lagrangian method keeps every scene within its bounds.",
-    "conf/bounds: exact answers, invariants, published values",
+    "bounds in conf/scene: exact answers, invariants, published values",
     reproduced="every run of it with its hourglass energy is done",
     partly="all are finite, some degraded",
     otherwise="one diverges or fails",
@@ -71,14 +71,14 @@ def total_lagrangian_is_sound(results: Results) -> Finding:
         + ", ".join(f"{b.bound.quantity} {_size(b.value)}" for b in c.judgement.breaches[:2])
         for c in bad
     )
-    return Finding(verdict(not bad, finite), told, cause)
+    return finding(not bad, finite, told, cause)
 
 
 @claim(
     "H2",
     "A bar held at 1 % strain loses its stress under the thesis's method.",
     "found before this program; its cause is the spurious mode that centred sums do not see",
-    reproduced=f"less than {percent(HELD)} is left at h̃ = 1.3 and 1.5, where total Lagrangian keeps more",
+    reproduced=f"less than {signed(HELD)} is left at h̃ = 1.3 and 1.5, where total Lagrangian keeps more",
     partly="at one of the two",
     otherwise="at neither",
 )
@@ -87,8 +87,8 @@ def held_bar(results: Results) -> Finding:
     found = _values(results, "tension", "stress_share", scene__strain=0.01)
     other = _values(results, "tension_tl", "stress_share", scene__strain=0.01)
     lost = [found[h] < HELD < other[h] for h in (1.3, 1.5)]
-    told = f"stress left: {_told(found, percent)}; total Lagrangian {_told(other, percent)}"
-    return Finding(verdict(all(lost), any(lost)), told)
+    told = f"stress left: {_told(found, signed)}; total Lagrangian {_told(other, signed)}"
+    return finding(all(lost), any(lost), told)
 
 
 @claim(
@@ -115,8 +115,7 @@ def rotation(results: Results) -> Finding:
         "probably uncorrected gradients, to which a rigid rotation looks like strain at the edges, where "
         "stress begins with or without spin terms"
     )
-    found = verdict(lost and saved, lost)
-    return Finding(found, told, "" if found == REPRODUCED else cause)
+    return finding(lost and saved, lost, told, cause)
 
 
 @claim(
@@ -136,11 +135,10 @@ def sign_of_curvature(results: Results) -> Finding:
     stable = stretched[1.7] >= CLUMPED and pressed[1.3] >= CLUMPED
     told = f"stretched {_told(stretched, _size)}; compressed {_told(pressed, _size)}"
     cause = (
-        f"{stability.unstable_side(1.3)}; {stability.unstable_side(1.7)}; but the checkerboard that "
+        f"{unstable_side(1.3)}; {unstable_side(1.7)}; but the checkerboard that "
         "centred sums do not see knows no sign"
     )
-    found = verdict(unstable and stable, unstable)
-    return Finding(found, told, "" if found == REPRODUCED else cause)
+    return finding(unstable and stable, unstable, told, cause)
 
 
 @claim(
@@ -166,7 +164,7 @@ def heun_lives_by_viscosity(results: Results) -> Finding:
     gone = [status == "diverged" for status in outcomes["no_viscosity"].values()]
     fine = all(status == "done" for status in outcomes["viscosity"].values())
     told = "; ".join(f"{block}: {_told(found, str)}" for block, found in outcomes.items())  # type: ignore[arg-type]
-    return Finding(verdict(all(gone) and fine, any(gone) and fine), told)
+    return finding(all(gone) and fine, any(gone) and fine, told)
 
 
 @claim(
@@ -196,6 +194,6 @@ def rings(results: Results) -> Finding:
             ("rings_tl", "total Lagrangian"),
         )
     )
-    found = verdict(thesis and total and repaired, thesis and total)
-    cause = "" if found != PARTLY else "artificial stress delays tearing, it does not prevent it"
-    return Finding(found, f"bonds broken at 0.06 and 0.12 c0: {told}", cause)
+    core = thesis and total
+    cause = "artificial stress delays tearing, it does not prevent it" if core else ""
+    return finding(core and repaired, core, f"bonds broken at 0.06 and 0.12 c0: {told}", cause)

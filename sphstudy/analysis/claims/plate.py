@@ -1,9 +1,10 @@
 """Claims about the vibrating plate (thesis 4.1, 5.1)."""
 
+from collections.abc import Callable
+
 import pandas as pd
 
-from sphstudy.analysis.claims import stability
-from sphstudy.analysis.claims.claim import NOT, PARTLY, REPRODUCED, Finding, claim
+from sphstudy.analysis.claims.claim import Finding, claim
 from sphstudy.analysis.claims.reading import (
     PLATE,
     because,
@@ -13,17 +14,18 @@ from sphstudy.analysis.claims.reading import (
     count,
     everywhere,
     falls,
+    finding,
     interval,
-    percent,
-    size,
+    signed,
     span,
     unstable,
-    verdict,
     whole_grid,
     within,
 )
+from sphstudy.analysis.claims.tensile_instability import kernel_test, unstable_side
 from sphstudy.analysis.results import Results
 from sphstudy.metrics.roughness import VISIBLE
+from sphstudy.text import percent
 
 ERRORS = ("frequency", "amplitude")
 
@@ -44,19 +46,24 @@ DRAWN = ((21, 1.3), (21, 1.5))
 
 
 def _in_range(
-    results: Results, metric: str, sign: float, limits: tuple[float, float]
-) -> tuple[str, str, pd.DataFrame]:
-    """Verdict and numbers of "all of this sign and in this range", and the cells outside."""
+    results: Results,
+    metric: str,
+    sign: float,
+    limits: tuple[float, float],
+    cause: Callable[[pd.DataFrame], str],
+) -> Finding:
+    """The finding of "all of this sign and in this range"; cause: of the cells outside, as a mask."""
     errors = whole_grid(results, metric, PLATE)
-    signed, shaky = sign * errors > 0.0, unstable(results, errors)
+    right, shaky = sign * errors > 0.0, unstable(results, errors)
     outside = ~within(errors, *limits) & ~shaky
-    told = f"{count(signed)} of {signed.size} are {'positive' if sign > 0.0 else 'negative'}"
+    told = f"{count(right)} of {right.size} are {'positive' if sign > 0.0 else 'negative'}"
     told += f"; all: {span(errors)}"
     if shaky.any(axis=None):
         told += f"; without {cells(shaky)}, which are unstable: {span(errors.mask(shaky))}"
     if outside.any(axis=None):
         told += f"; outside the range: {cells(outside)}"
-    return verdict(everywhere(signed) and not outside.any(axis=None), everywhere(signed)), told, outside
+    everything = everywhere(right) and not outside.any(axis=None)
+    return finding(everything, everywhere(right), told, "" if everything else cause(outside))
 
 
 @claim(
@@ -69,8 +76,8 @@ def _in_range(
 )
 def frequency_errors(results: Results) -> Finding:
     """Sign and range of the frequency errors."""
-    found, told, _ = _in_range(results, "frequency_error", -1.0, FREQUENCY_RANGE)
-    return Finding(found, told, "" if found == REPRODUCED else _frequency_cause(results))
+    cause = lambda outside: _frequency_cause(results)  # noqa: E731
+    return _in_range(results, "frequency_error", -1.0, FREQUENCY_RANGE, cause)
 
 
 def _frequency_cause(results: Results) -> str:
@@ -92,8 +99,8 @@ def _frequency_cause(results: Results) -> str:
 )
 def amplitude_errors(results: Results) -> Finding:
     """Sign and range of the amplitude errors."""
-    found, told, outside = _in_range(results, "amplitude_error", 1.0, AMPLITUDE_RANGE)
-    return Finding(found, told, "" if found == REPRODUCED else _amplitude_cause(results, outside))
+    cause = lambda outside: _amplitude_cause(results, outside)  # noqa: E731
+    return _in_range(results, "amplitude_error", 1.0, AMPLITUDE_RANGE, cause)
 
 
 def _amplitude_cause(results: Results, off: pd.DataFrame) -> str:
@@ -103,8 +110,8 @@ def _amplitude_cause(results: Results, off: pd.DataFrame) -> str:
     product = whole_grid(results, "amplitude_frequency_product", PLATE)
     lossless = (1.0 + whole_grid(results, "amplitude_error", PLATE)) / product - 1.0
     told = ", ".join(
-        f"at ({n}, {h:g}) that is {percent(lossless.at[h, n])}, and "
-        f"{percent(product.at[h, n] - 1.0)} by loss"
+        f"at ({n}, {h:g}) that is {signed(lossless.at[h, n])}, and "
+        f"{signed(product.at[h, n] - 1.0)} by loss"
         for n in off
         for h in off.index
         if off.at[h, n]
@@ -127,12 +134,12 @@ def smallest_errors(results: Results) -> Finding:
     where = {name: grid == least[name] for name, grid in errors.items()}
     lower, upper = ABOUT_3_PERCENT
     right = {name: lower <= value <= upper for name, value in least.items()}
-    told = "; ".join(f"{name} {size(least[name])} at {cells(where[name])}" for name in ERRORS)
+    told = "; ".join(f"{name} {percent(least[name])} at {cells(where[name])}" for name in ERRORS)
     cause = because(
         "" if right["frequency"] else _frequency_cause(results),
         "" if right["amplitude"] else _amplitude_cause(results, where["amplitude"]),
     )
-    return Finding(verdict(all(right.values()), any(right.values())), told, cause)
+    return finding(all(right.values()), any(right.values()), told, cause)
 
 
 @claim(
@@ -148,14 +155,13 @@ def trends(results: Results) -> Finding:
     """Trends with the resolution."""
     fall = pd.concat([falls(whole_grid(results, f"{name}_error", PLATE)) for name in ERRORS], axis=1)
     smooth, rough = fall.drop(index=1.3), ~fall.loc[[1.3]]
-    found = verdict(everywhere(smooth) and everywhere(rough), everywhere(smooth))
     frequency = whole_grid(results, "frequency_error", PLATE).loc[1.3]
     told = (
         f"fall in {count(smooth)} of {smooth.size} steps at h̃ = 1.5 to 1.9, grow in {count(rough)} of "
-        f"{rough.size} at 1.3 (frequency: {', '.join(map(percent, frequency))})"
+        f"{rough.size} at 1.3 (frequency: {', '.join(map(signed, frequency))})"
     )
-    cause = because(stability.unstable_side(1.3), stability.kernel_test(results, 1.3))
-    return Finding(found, told, "" if found == REPRODUCED else cause)
+    cause = because(unstable_side(1.3), kernel_test(results, 1.3))
+    return finding(everywhere(smooth) and everywhere(rough), everywhere(smooth), told, cause)
 
 
 @claim(
@@ -174,16 +180,12 @@ def best_smoothing_radius(results: Results) -> Finding:
     best = [mean.idxmin() == 1.5 for mean in means.values()]
     wins = sum(int((best_smoothing(grid) == 1.5).sum()) for grid in errors.values())
     told = "; ".join(
-        f"{name}: " + ", ".join(f"{size(value)} ({h:g})" for h, value in mean.items())
+        f"{name}: " + ", ".join(f"{percent(value)} ({h:g})" for h, value in mean.items())
         for name, mean in means.items()
     )
-    found = verdict(all(best), any(best) or wins >= 3)
+    told = f"mean size over n: {told}; best in {wins} of 6 columns"
     cause = "best for the frequency at h̃ = " + choices(best_smoothing(errors["frequency"]))
-    return Finding(
-        found,
-        f"mean size over n: {told}; best in {wins} of 6 columns",
-        "" if found == REPRODUCED else cause,
-    )
+    return finding(all(best), any(best) or wins >= 3, told, cause)
 
 
 @claim(
@@ -201,14 +203,13 @@ def spikes(results: Results) -> Finding:
     bottom, top = (whole_grid(results, f"stress_roughness_{side}", PLATE) for side in ("bottom", "top"))
     right = {(n, h): (bottom.at[h, n] >= VISIBLE) == ((n, h) in SPIKED) for n, h in (*SPIKED, *CLEAN)}
     calm_above = all(top.at[h, n] < VISIBLE for n, h in right)
-    found = verdict(all(right.values()) and calm_above, all(right[cell] for cell in DRAWN))
     told = ", ".join(
-        f"{size(bottom.at[h, n])} below and {size(top.at[h, n])} above the axis at ({n}, {h:g})"
+        f"{percent(bottom.at[h, n])} below and {percent(top.at[h, n])} above the axis at ({n}, {h:g})"
         for n, h in right
     )
-    told = because(f"roughness {told}", stability.kernel_test(results, 1.3))
-    cause = because(stability.unstable_side(1.3), stability.unstable_side(1.5))
-    return Finding(found, told, "" if found == REPRODUCED else cause)
+    told = because(f"roughness {told}", kernel_test(results, 1.3))
+    cause = because(unstable_side(1.3), unstable_side(1.5))
+    return finding(all(right.values()) and calm_above, all(right[cell] for cell in DRAWN), told, cause)
 
 
 @claim(
@@ -232,7 +233,8 @@ def disturbance(results: Results) -> Finding:
         plain = float(without.at[1.5, n])
         disturbed.append(plain < VISIBLE <= bottom and bottom > top)
         grown.append(bottom > plain)
-        told.append(f"n = {n}: {size(bottom)} below, {size(top)} above, {size(plain)} below without it")
-    found = REPRODUCED if any(disturbed) else PARTLY if all(grown) else NOT
+        told.append(
+            f"n = {n}: {percent(bottom)} below, {percent(top)} above, {percent(plain)} below without it"
+        )
     cause = "the thesis does not say at which resolution, h̃ and time it saw the disturbance"
-    return Finding(found, "; ".join(told), "" if found == REPRODUCED else cause)
+    return finding(any(disturbed), all(grown), "; ".join(told), cause)

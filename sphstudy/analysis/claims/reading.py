@@ -2,10 +2,10 @@
 
 import pandas as pd
 
-from sphstudy.analysis.claims.claim import NOT, PARTLY, REPRODUCED
+from sphstudy.analysis.claims.claim import NOT, PARTLY, REPRODUCED, Finding
 from sphstudy.analysis.effects import CONTROL
 from sphstudy.analysis.results import Missing, Results
-from sphstudy.text import number
+from sphstudy.text import percent
 
 SMOOTHING = (1.3, 1.5, 1.7, 1.9)
 """Relative smoothing radii h̃ of every grid of the thesis."""
@@ -42,9 +42,19 @@ def best_smoothing(grid: pd.DataFrame) -> pd.Series:
     return grid.abs().idxmin()
 
 
-def verdict(everything: bool, core: bool) -> str:
-    """REPRODUCED if everything holds, PARTLY if only the core of the claim does, NOT otherwise."""
-    return REPRODUCED if everything else PARTLY if core else NOT
+def finding(everything: bool, core: bool, numbers: str, cause: str = "") -> Finding:
+    """The finding of a rule.
+
+    Parameters
+    ----------
+    everything, core : bool
+        Whether all of the claim holds (REPRODUCED), or its core at least (PARTLY; else NOT).
+    numbers, cause : str
+        As in Finding; what is reproduced needs no cause.
+    """
+    if everything:
+        return Finding(REPRODUCED, numbers)
+    return Finding(PARTLY if core else NOT, numbers, cause)
 
 
 def within(grid: pd.DataFrame, lower: float, upper: float) -> pd.DataFrame:
@@ -67,19 +77,14 @@ def cells(mask: pd.DataFrame) -> str:
     return ", ".join(f"({n}, {h:g})" for n in mask.columns for h in mask.index if mask.at[h, n])
 
 
-def percent(value: float) -> str:
+def signed(value: float) -> str:
     """A share in per cent, with its sign."""
-    return f"{number(100.0 * value, 3, sign=True)} %"
-
-
-def size(value: float) -> str:
-    """A share in per cent that has no sign."""
-    return f"{number(100.0 * value, 3)} %"
+    return percent(value, sign=True)
 
 
 def span(grid: pd.DataFrame) -> str:
     """Smallest and largest value of a grid of shares."""
-    return f"{percent(grid.min(axis=None))} to {percent(grid.max(axis=None))}"
+    return f"{signed(grid.min(axis=None))} to {signed(grid.max(axis=None))}"
 
 
 def interval(limits: tuple[float, float], scale: float = 1.0) -> str:
@@ -118,8 +123,8 @@ def options(results: Results, scene: str, metric: str) -> str:
     known, first = points[changed & points[metric].notna()], points.iloc[0]
     least, most = known.loc[known[metric].idxmin()], known.loc[known[metric].idxmax()]
     return (
-        f"each alone, the choices left open give {percent(least[metric])} ({least['varied']}) to "
-        f"{percent(most[metric])} ({most['varied']}) at ({first['n']}, {first['h']:g})"
+        f"each alone, the choices left open give {signed(least[metric])} ({least['varied']}) to "
+        f"{signed(most[metric])} ({most['varied']}) at ({first['n']}, {first['h']:g})"
     )
 
 

@@ -3,7 +3,7 @@
 import pandas as pd
 
 from sphstudy.analysis.claims.claim import Finding, claim
-from sphstudy.analysis.claims.crack import DISPLACEMENTS, STRESSES, norms
+from sphstudy.analysis.claims.error_norms import DISPLACEMENTS, STRESSES, norms
 from sphstudy.analysis.claims.reading import (
     CRACK,
     PLATE,
@@ -11,15 +11,14 @@ from sphstudy.analysis.claims.reading import (
     cells,
     count,
     everywhere,
-    percent,
-    size,
-    verdict,
+    finding,
+    signed,
     whole_grid,
 )
-from sphstudy.analysis.claims.stability import FULL, THOUSANDTH, plate_test
+from sphstudy.analysis.claims.tensile_instability import FULL, THOUSANDTH, plate_test
 from sphstudy.analysis.results import Results
 from sphstudy.metrics.roughness import VISIBLE
-from sphstudy.text import number
+from sphstudy.text import number, percent
 
 FAR_BETTER = 3.0
 """Projection is far better than propagation where its error is so many times smaller."""
@@ -39,7 +38,7 @@ NEGLIGIBLE = 0.01
     reproduced=f"in all 24 cells of both modes the error of G1 is at least {FAR_BETTER:g} times "
     "that of G2; and for each of 14 measures (plate: frequency and amplitude; each mode: G2, five "
     f"norms) the mean error over n at h̃ = 1.5 is at most {GOOD:g} times that of the best h̃, or "
-    f"below {size(NEGLIGIBLE)}",
+    f"below {percent(NEGLIGIBLE)}",
     partly="one of the two holds, or the first holds for the median of each mode and the second "
     "for at least 7 measures",
     otherwise="not even that",
@@ -57,12 +56,7 @@ def recommendations(results: Results) -> Finding:
     }
     better = [everywhere(grid >= FAR_BETTER) for grid in ratios.values()]
     typical = [float(grid.stack().median()) for grid in ratios.values()]
-    found = verdict(
-        all(better) and all(good.values()),
-        all(better)
-        or all(good.values())
-        or (min(typical) >= FAR_BETTER and 2 * sum(good.values()) >= len(good)),
-    )
+    mostly = min(typical) >= FAR_BETTER and 2 * sum(good.values()) >= len(good)
     told = (
         f"|G1 error|/|G2 error|: median {number(typical[0], 2)} in mode I, {number(typical[1], 2)} "
         f"in mode II; h̃ = 1.5 good in {sum(good.values())} of {len(good)} measures, best in "
@@ -76,7 +70,8 @@ def recommendations(results: Results) -> Finding:
         ),
         *(f"{name} {number(regret[name], 2)} times the best" for name, fine in good.items() if not fine),
     )
-    return Finding(found, told, "" if all(better) and all(good.values()) else cause)
+    everything = all(better) and all(good.values())
+    return finding(everything, all(better) or all(good.values()) or mostly, told, cause)
 
 
 def _ratio(crack: Results) -> pd.DataFrame:
@@ -123,13 +118,13 @@ def treatment(results: Results) -> Finding:
     disturbed = bool(((rough >= VISIBLE) & (smooth < VISIBLE)).any())
     no_gain = treated["frequency_error"].abs().mean() >= base["frequency_error"].abs().mean()
     told = "; ".join(
-        f"n = {n}: ω error {percent(treated['frequency_error'][n])} instead of "
-        f"{percent(base['frequency_error'][n])}, roughness {size(rough[n])} instead of "
-        f"{size(smooth[n])}"
+        f"n = {n}: ω error {signed(treated['frequency_error'][n])} instead of "
+        f"{signed(base['frequency_error'][n])}, roughness {percent(rough[n])} instead of "
+        f"{percent(smooth[n])}"
         for n in PLATE
     )
-    told = f"h̃ = 1.5 with artificial stress: {told}"
-    return Finding(verdict(disturbed and no_gain, disturbed or no_gain), because(told, _cure(results)))
+    told = because(f"h̃ = 1.5 with artificial stress: {told}", _cure(results))
+    return finding(disturbed and no_gain, disturbed or no_gain, told)
 
 
 def _cure(results: Results) -> str:
@@ -145,7 +140,7 @@ def _cure(results: Results) -> str:
         treated, plain = (plate_test(results, 1.3, "cubic", stress, amplitude) for stress in (0.3, 0.0))
         if treated and plain:
             told.append(
-                f"{words}: ω error {percent(treated[0])} instead of {percent(plain[0])}, roughness "
-                f"{size(treated[1])} instead of {size(plain[1])}"
+                f"{words}: ω error {signed(treated[0])} instead of {signed(plain[0])}, roughness "
+                f"{percent(treated[1])} instead of {percent(plain[1])}"
             )
     return f"at (15, 1.3), {'; '.join(told)}" if told else ""

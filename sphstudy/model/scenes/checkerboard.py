@@ -1,9 +1,9 @@
 """Square driven, particle by particle, into a checkerboard: u_x = ±a, alternating along rows and columns.
 
-The shortest wave that a lattice carries, and the one that centred sums over neighbours do not see: what
-force brings the particles back? All of them are driven, slowly, so that the power of the constraints is
-that of the restoring forces, and nothing can run away. The pattern fades out towards the surface: there
-neighbours are missing, and the forces would be those of another lattice.
+This is the shortest wave that a lattice carries, and centred sums over neighbours do not see it: which
+force brings the particles back? All of them are driven, slowly: the power of the constraints is then that
+of the restoring forces, and nothing can run away. The pattern fades out towards the surface, where
+neighbours are missing and the forces would be those of another lattice.
 """
 
 from collections.abc import Iterator

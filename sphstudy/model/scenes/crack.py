@@ -11,7 +11,8 @@ import numpy as np
 
 from sphstudy.model.constraints import Constraints
 from sphstudy.model.exact import williams
-from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
+from sphstudy.model.lattice import lattice_sites, square
+from sphstudy.model.problem import Body, Problem, Stage
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import count, described, number, parameters
 
@@ -49,9 +50,7 @@ def particles(config) -> int:
 def crack_body(config) -> Body:
     """The square; tags: "frame" (driven), "faces" (rows beside the crack), "ahead", "tip" disc."""
     scene, n = config.scene, config.n
-    spacing = scene.L / n
-    line = spacing * (np.arange(n) - 0.5 * (n - 1))
-    x, y = lattice(line, line)
+    x, y, spacing = square(scene.L, n)
     edge = 0.5 * scene.L - scene.frame_layers * spacing
     beside = np.abs(y) < spacing
     tags = {
@@ -60,8 +59,7 @@ def crack_body(config) -> Body:
         "ahead": beside & (x > 0.0),
         "tip": np.hypot(x, y) < 3.0 * config.h * spacing,
     }
-    mass = np.full(x.size, scene.rho * spacing**2)
-    return Body(x, y, mass, spacing, spacing, scene.material, tags, lattice_sites(n, n))
+    return Body.of_squares(x, y, spacing, scene.material, tags=tags, sites=lattice_sites(n, n))
 
 
 def build(config) -> Problem:

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from sphstudy.model.constraints import Constraints
-from sphstudy.model.problem import Body, Problem, lattice, lattice_sites
-from sphstudy.model.scenes.solid import SolidParameters
-from sphstudy.model.scenes.tension import held, noise
+from sphstudy.model.lattice import lattice_sites, noise, square
+from sphstudy.model.problem import Body, Problem
+from sphstudy.model.scenes.solid import SolidParameters, held
 from sphstudy.parameters import count, number, parameters
 
 
@@ -48,22 +48,20 @@ def particles(config) -> int:
     return config.n * config.n
 
 
-def square(config) -> Body:
+def body(config) -> Body:
     """The square, all of its particles off the lattice; tag "frame": driven."""
     scene, n = config.scene, config.n
-    spacing = scene.L / n
-    line = spacing * (np.arange(n) - 0.5 * (n - 1))
-    x, y = lattice(line, line)
+    x, y, spacing = square(scene.L, n)
     tags = {"frame": np.maximum(np.abs(x), np.abs(y)) > 0.5 * scene.L - scene.frame_layers * spacing}
     off = noise(x.size, scene.perturbation * spacing, config.seed)
-    mass = np.full(x.size, scene.rho * spacing**2)
-    return Body(x + off[0], y + off[1], mass, spacing, spacing, scene.material, tags, lattice_sites(n, n))
+    sites = lattice_sites(n, n)
+    return Body.of_squares(x + off[0], y + off[1], spacing, scene.material, tags=tags, sites=sites)
 
 
 def build(config) -> Problem:
     """Problem of the patch test: frame driven with the affine displacement of its particles."""
-    body = square(config)
-    frame = np.flatnonzero(body.tags["frame"])
-    u_x, u_y = config.scene.gradient @ np.stack((body.x, body.y))[:, frame]
-    distance = np.where(body.tags["frame"], np.inf, np.hypot(body.x, body.y))
-    return held(config, body, Constraints(frame, u_x, frame, u_y), tracked=int(np.argmin(distance)))
+    square = body(config)
+    frame = np.flatnonzero(square.tags["frame"])
+    u_x, u_y = config.scene.gradient @ np.stack((square.x, square.y))[:, frame]
+    distance = np.where(square.tags["frame"], np.inf, np.hypot(square.x, square.y))
+    return held(config, square, Constraints(frame, u_x, frame, u_y), tracked=int(np.argmin(distance)))

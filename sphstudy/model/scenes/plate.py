@@ -7,8 +7,9 @@ import numpy as np
 
 from sphstudy.model.constraints import Constraints
 from sphstudy.model.exact import beam
+from sphstudy.model.lattice import centred, lattice, lattice_sites
 from sphstudy.model.material import Material
-from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
+from sphstudy.model.problem import Body, Problem, Stage
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import count, described, number, parameters
 
@@ -78,7 +79,7 @@ def particles(config) -> int:
 
 
 def plate_body(config) -> Body:
-    """The particles of the plate; tag "clamped": those at x ≤ 0, "centreline": those at y = 0."""
+    """The particles of the plate; tags: "clamped" at x ≤ 0, "centreline" at y = 0, "end": last column."""
     scene, rows = config.scene, config.n
     spacing_y = scene.height / rows
     columns = scene.slenderness * rows
@@ -88,12 +89,20 @@ def plate_body(config) -> Body:
 
 
 def slab(x: np.ndarray, rows: int, spacing_x: float, spacing_y: float, material: Material) -> Body:
-    """A lattice of columns at x (m) and of rows about y = 0, with the tags of `plate_body`.
+    """A rectangular lattice, its rows about y = 0, with the tags of `plate_body`.
 
-    There is no particle on the centreline if `rows` is even.
+    Parameters
+    ----------
+    x : array [columns]
+        Coordinates of the columns (m).
+    rows : int
+        Number of rows; if it is even, no particle lies on the centreline.
+    spacing_x, spacing_y : float
+        Of columns and rows (m).
+    material : Material
+        Of all particles.
     """
-    y = spacing_y * (np.arange(rows) - 0.5 * (rows - 1))
-    grid_x, grid_y = lattice(x, y)
+    grid_x, grid_y = lattice(x, centred(rows, spacing_y))
     tags = {"clamped": grid_x <= 0.0, "centreline": grid_y == 0.0, "end": grid_x == x[-1]}
     mass = np.full(grid_x.size, material.density * spacing_x * spacing_y)
     sites = lattice_sites(x.size, rows)
@@ -116,9 +125,16 @@ def build(config) -> Problem:
 
 
 def vibrating(body: Body, velocity: np.ndarray, duration: float) -> Problem:
-    """A plate, held where it is tagged "clamped", that is pushed and left to itself for a time (s).
+    """A plate that is pushed once and then vibrates.
 
-    velocity [N]: initial v_y (m/s) of the particles at x > 0; all others begin at rest.
+    Parameters
+    ----------
+    body : Body
+        The plate, held where it is tagged "clamped".
+    velocity : array [N]
+        Initial v_y (m/s) of the particles at x > 0; all others begin at rest.
+    duration : float
+        Of the run (s).
     """
     clamped = np.flatnonzero(body.tags["clamped"])
     still = np.zeros(clamped.size)

@@ -11,11 +11,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from sphstudy.model.constraints import Constraints
-from sphstudy.model.problem import Body, Problem, lattice
-from sphstudy.model.scenes.tension import StretchedParameters, held, noise, strain_complaint
+from sphstudy.model.lattice import centred, lattice, noise
+from sphstudy.model.problem import Body, Problem
+from sphstudy.model.scenes.solid import held
+from sphstudy.model.scenes.tension import StretchedParameters, strain_complaint
 from sphstudy.parameters import count, number, parameters
-
-__all__ = ["Parameters", "build", "check", "particles"]
 
 
 @parameters
@@ -41,7 +41,7 @@ def particles(config) -> int:
 
 def _inside(config) -> np.ndarray:
     """Which sites of the square lattice [n, n] lie in the disc."""
-    line = np.arange(config.n) - 0.5 * (config.n - 1)
+    line = centred(config.n, 1.0)
     return line[:, None] ** 2 + line**2 < (0.5 * config.n) ** 2
 
 
@@ -49,8 +49,7 @@ def disc(config) -> Body:
     """The disc; tags: "driven" (rim), "middle": within half of the radius."""
     scene, n = config.scene, config.n
     spacing = 2.0 * scene.radius / n
-    line = spacing * (np.arange(n) - 0.5 * (n - 1))
-    inside = _inside(config)
+    line, inside = centred(n, spacing), _inside(config)
     x, y = (axis[inside.ravel()] for axis in lattice(line, line))
     distance = np.hypot(x, y)
     tags = {
@@ -58,9 +57,8 @@ def disc(config) -> Body:
         "middle": distance < 0.5 * scene.radius,
     }
     off = noise(x.size, scene.noise * spacing, config.seed)
-    mass = np.full(x.size, scene.rho * spacing**2)
     sites = np.stack(np.nonzero(inside))[::-1]
-    return Body(x + off[0], y + off[1], mass, spacing, spacing, scene.material, tags, sites)
+    return Body.of_squares(x + off[0], y + off[1], spacing, scene.material, tags=tags, sites=sites)
 
 
 def build(config) -> Problem:

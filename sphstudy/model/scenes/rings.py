@@ -8,9 +8,8 @@ from typing import Literal
 
 import numpy as np
 
-from sphstudy.model.constraints import Constraints
 from sphstudy.model.problem import Body, Problem, Stage
-from sphstudy.model.scenes.solid import SolidParameters
+from sphstudy.model.scenes.solid import SolidParameters, unconstrained
 from sphstudy.parameters import count, described, number, parameters
 
 
@@ -58,16 +57,14 @@ def rings_body(config) -> Body:
     chosen = (radius > scene.inner) & (radius < scene.outer)
     x, y = x[chosen], y[chosen]
     left = x < 0.0
-    return Body(
+    return Body.of_squares(
         x,
         y,
-        np.full(x.size, scene.rho * spacing**2),
-        spacing,
         spacing,
         scene.material,
-        {"left": left},
-        np.stack((column[chosen], row[chosen])),
-        np.where(left, 0, 1),
+        tags={"left": left},
+        sites=np.stack((column[chosen], row[chosen])),
+        part=np.where(left, 0, 1),
     )
 
 
@@ -76,11 +73,10 @@ def build(config) -> Problem:
     scene = config.scene
     body = rings_body(config)
     speed = scene.speed * body.material.wave_speed
-    nobody, nothing = np.empty(0, np.int64), np.empty(0)
     duration = scene.duration * 2.0 * scene.outer / body.material.wave_speed
     return Problem(
         body=body,
-        constraints=Constraints(nobody, nothing, nobody, nothing),
+        constraints=unconstrained(),
         stages=(Stage("collide", "run", duration=duration),),
         step_spacing=body.spacing_x,
         energy_compliance=body.material.compliance,

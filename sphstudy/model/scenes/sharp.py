@@ -13,7 +13,8 @@ import numpy as np
 
 from sphstudy.model.constraints import Constraints
 from sphstudy.model.exact.waves import longitudinal_speed
-from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
+from sphstudy.model.lattice import centred, lattice, lattice_sites, square
+from sphstudy.model.problem import Body, Problem, Stage
 from sphstudy.model.scenes.solid import SolidParameters
 from sphstudy.parameters import count, described, number, parameters
 
@@ -58,24 +59,18 @@ def _wave_body(config) -> Body:
     columns = scene.slenderness * rows
     spacing = scene.L / columns
     x = spacing * np.arange(1 - scene.held_layers, columns)
-    grid_x, grid_y = lattice(x, spacing * (np.arange(rows) - rows // 2))
-    return _body(config, grid_x, grid_y, spacing, {"held": grid_x <= 0.0}, lattice_sites(x.size, rows))
+    grid_x, grid_y = lattice(x, centred(rows, spacing))
+    tags, sites = {"held": grid_x <= 0.0}, lattice_sites(x.size, rows)
+    return Body.of_squares(grid_x, grid_y, spacing, scene.material, tags=tags, sites=sites)
 
 
 def _particle_body(config) -> Body:
     """The square about the origin."""
     n, layers = config.n, config.scene.held_layers
-    spacing = config.scene.L / n
-    line = spacing * (np.arange(n) - n // 2)
-    x, y = lattice(line, line)
+    x, y, spacing = square(config.scene.L, n)
     sites = lattice_sites(n, n)
     inside = ((sites >= layers) & (sites < n - layers)).all(axis=0)
-    return _body(config, x, y, spacing, {"held": ~inside}, sites)
-
-
-def _body(config, x, y, spacing, tags, sites) -> Body:
-    mass = np.full(x.size, config.scene.rho * spacing**2)
-    return Body(x, y, mass, spacing, spacing, config.scene.material, tags, sites)
+    return Body.of_squares(x, y, spacing, config.scene.material, tags={"held": ~inside}, sites=sites)
 
 
 def build(config) -> Problem:

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from sphstudy.model.constraints import Constraints
-from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
-from sphstudy.model.scenes.solid import SolidParameters
+from sphstudy.model.lattice import lattice_sites, square
+from sphstudy.model.problem import Body, Problem, Stage
+from sphstudy.model.scenes.solid import SolidParameters, unconstrained
 from sphstudy.parameters import number, parameters
 
 
@@ -42,18 +42,9 @@ def particles(config) -> int:
 
 def square_body(config) -> Body:
     """The particles of a square about the origin."""
-    scene, n = config.scene, config.n
-    spacing = scene.L / n
-    line = spacing * (np.arange(n) - 0.5 * (n - 1))
-    x, y = lattice(line, line)
-    mass = np.full(x.size, scene.rho * spacing**2)
-    return Body(x, y, mass, spacing, spacing, scene.material, sites=lattice_sites(n, n))
-
-
-def unconstrained() -> Constraints:
-    """Nothing held, nothing driven."""
-    nobody, nowhere = np.empty(0, np.int64), np.empty(0)
-    return Constraints(nobody, nowhere, nobody, nowhere)
+    x, y, spacing = square(config.scene.L, config.n)
+    sites = lattice_sites(config.n, config.n)
+    return Body.of_squares(x, y, spacing, config.scene.material, sites=sites)
 
 
 def build(config) -> Problem:

@@ -10,8 +10,9 @@ from typing import Literal
 import numpy as np
 
 from sphstudy.model.constraints import Constraints
-from sphstudy.model.problem import Body, Problem, Stage, lattice, lattice_sites
-from sphstudy.model.scenes.solid import SolidParameters
+from sphstudy.model.lattice import centred, lattice, lattice_sites, noise
+from sphstudy.model.problem import Body, Problem
+from sphstudy.model.scenes.solid import SolidParameters, held
 from sphstudy.parameters import count, described, number, parameters
 
 
@@ -60,20 +61,13 @@ def particles(config) -> int:
     return config.n * columns(config)
 
 
-def noise(particles: int, amplitude: float, seed: int) -> np.ndarray:
-    """Displacements [2, N], each coordinate even between ± amplitude (m); same seed, same numbers."""
-    return np.random.default_rng(seed).uniform(-amplitude, amplitude, (2, particles))
-
-
 def bar(config) -> Body:
     """The bar; tags: "driven" in x, "section" (half of the length), "middle" (of that, half of the
     height), "pins" (held in y: the axis at either end).
     """
     scene, rows, across = config.scene, config.n, columns(config)
     spacing = scene.height / rows
-    x, y = lattice(
-        spacing * (np.arange(across) - 0.5 * (across - 1)), spacing * (np.arange(rows) - rows // 2)
-    )
+    x, y = lattice(centred(across, spacing), centred(rows, spacing))
     sites = lattice_sites(across, rows)
     from_end = np.minimum(sites[0], across - 1 - sites[0])
     tags = {
@@ -83,8 +77,7 @@ def bar(config) -> Body:
         "pins": (from_end == 0) & (sites[1] == rows // 2),
     }
     off = noise(x.size, scene.noise * spacing, config.seed)
-    mass = np.full(x.size, scene.rho * spacing**2)
-    return Body(x + off[0], y + off[1], mass, spacing, spacing, scene.material, tags, sites)
+    return Body.of_squares(x + off[0], y + off[1], spacing, scene.material, tags=tags, sites=sites)
 
 
 def build(config) -> Problem:
@@ -97,19 +90,4 @@ def build(config) -> Problem:
         Constraints(driven, config.scene.strain * body.x[driven], pins, np.zeros(pins.size)),
         # Middle of the upper face, whose u_y is the contraction.
         tracked=(config.n - 1) * columns(config) + columns(config) // 2,
-    )
-
-
-def held(config, body: Body, constraints: Constraints, tracked: int) -> Problem:
-    """Problem of a body at rest that is loaded, then held until the scene's end time."""
-    still = np.zeros(body.x.size)
-    return Problem(
-        body=body,
-        constraints=constraints,
-        stages=(Stage("load", "load"), Stage("settle", "settle", until=config.scene.end_time)),
-        step_spacing=body.mean_spacing,
-        energy_compliance=body.material.compliance,
-        velocity_x=still,
-        velocity_y=still,
-        tracked=tracked,
     )

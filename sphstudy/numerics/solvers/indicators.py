@@ -4,7 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.model.problem import Body, Problem, at_site
+from sphstudy.model.lattice import at_site
+from sphstudy.model.problem import Body, Problem
 
 _SIGNS = np.array((1.0, -1.0, -1.0, 1.0))
 """Of the checkerboard on a cell whose corners are (0, 0), (1, 0), (0, 1), (1, 1)."""

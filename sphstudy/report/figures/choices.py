@@ -11,7 +11,7 @@ from matplotlib.ticker import NullFormatter
 
 from sphstudy.analysis.effects import CONTROL, effects
 from sphstudy.analysis.results import Missing, Results
-from sphstudy.report.figure import figure
+from sphstudy.report.figure import figures
 from sphstudy.report.series import PERCENT
 
 _CAPTION = (
@@ -57,26 +57,28 @@ _WITHOUT = {"done": "undefined"}
 _UP, _DOWN, _CONTROL = ("^", "#D55E00"), ("v", "#0072B2"), ("o", "0.4")
 
 
-@figure("open choices, vibrating plate", f"Vibrating plate, (n_y, h̃) = (15, 1.5): {_CAPTION}")
-def plate(results: Results) -> Figure:
-    return _chart(results, "plate")
-
-
-@figure("open choices, bending plate", f"Bending plate, (n_y, h̃) = (9, 1.7): {_CAPTION}")
-def bending(results: Results) -> Figure:
-    return _chart(results, "bending")
-
-
-@figure("open choices, opening crack", f"Mode I, (n_x, h̃) = (40, 1.5): {_CAPTION}")
-def mode1(results: Results) -> Figure:
-    return _chart(results, "mode1")
-
-
-@figure("open choices, sliding crack", f"Mode II, (n_x, h̃) = (40, 1.5): {_CAPTION}")
-def mode2(results: Results) -> Figure:
-    return _chart(results, "mode2")
-
-
+@figures(
+    plate=(
+        "open choices, vibrating plate",
+        f"Vibrating plate, (n_y, h̃) = (15, 1.5): {_CAPTION}",
+        "plate",
+    ),
+    bending=(
+        "open choices, bending plate",
+        f"Bending plate, (n_y, h̃) = (9, 1.7): {_CAPTION}",
+        "bending",
+    ),
+    mode1=(
+        "open choices, opening crack",
+        f"Mode I, (n_x, h̃) = (40, 1.5): {_CAPTION}",
+        "mode1",
+    ),
+    mode2=(
+        "open choices, sliding crack",
+        f"Mode II, (n_x, h̃) = (40, 1.5): {_CAPTION}",
+        "mode2",
+    ),
+)
 def _chart(results: Results, block: str) -> Figure:
     """A panel for each metric of a block, a line in it for each setting varied, the control last."""
     rows = results.select(block=block)

@@ -11,7 +11,7 @@ from sphstudy.analysis.results import Missing, Results
 from sphstudy.metrics.roughness import VISIBLE
 from sphstudy.numerics.sph.kernel import KERNELS, curvature
 from sphstudy.report.figure import figure
-from sphstudy.report.series import PERCENT, RADIUS, legend_above
+from sphstudy.report.series import PERCENT, RADIUS, legend_above, zero_line
 
 _STRESS = "method.artificial_stress"
 _PLACES = "relative smoothing radius $\\tilde{h}$, kernel"
@@ -41,7 +41,7 @@ def kernel_curvature(results: Results) -> Figure:
         values = [kernel.scale * curvature(kernel, value) for value in np.append(neighbours, q)]
         (line,) = axes.plot(q, values[neighbours.size :], style, label=name)
         axes.plot(neighbours, values[: neighbours.size], marker, color=line.get_color())
-    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+    zero_line(axes)
     for h, neighbour in zip(widths, neighbours, strict=True):
         axes.axvline(neighbour, color="0.6", linewidth=1.0, linestyle=":", zorder=1)
         place: dict[str, Any] = {"xycoords": axes.get_xaxis_transform(), "textcoords": "offset points"}

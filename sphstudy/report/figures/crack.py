@@ -7,93 +7,36 @@ from matplotlib.figure import Figure
 from sphstudy.analysis.results import Results
 from sphstudy.metrics.metric import snapshot
 from sphstudy.model.exact import williams
-from sphstudy.report.figure import figure
-from sphstudy.report.series import legend_above
+from sphstudy.report.figure import figures
+from sphstudy.report.series import legend_above, zero_line
 from sphstudy.store.record import configuration
 
 _CELL = {"h": 1.7, "n": 60}
 _MILLIMETRE, _MEGAPASCAL = 1e-3, 1e6
 
+COMPONENTS = ("xx", "yy", "xy")
+"""Of the stress, in the order of the exact solution."""
+
 _ROWS = ((1.0, "above", "^"), (-1.0, "below", "v"))
 """Side of the crack's line, its name and marker."""
 
 
-@figure(
-    "4.10",
-    "Mode I: u_y of the two rows of particles beside the crack's faces over their original x0, cell "
-    "(n_x, h̃) = (60, 1.7) at equilibrium, and Williams' solution. Hollow: prescribed particles of the "
-    "frame. The thesis: good agreement, except very near the tip at x0 = 0.",
+@figures(
+    mode1_faces=(
+        "4.10",
+        "Mode I: u_y of the two rows of particles beside the crack's faces over their original x0, cell "
+        "(n_x, h̃) = (60, 1.7) at equilibrium, and Williams' solution. Hollow: prescribed particles of "
+        "the frame. The thesis: good agreement, except very near the tip at x0 = 0.",
+        "y",
+    ),
+    mode2_faces=(
+        "4.14",
+        "Mode II: u_x of the two rows of particles beside the crack's faces over their original x0, "
+        "cell (n_x, h̃) = (60, 1.7) at equilibrium, and Williams' solution. Hollow: prescribed "
+        "particles of the frame. The thesis: very good agreement, the error growing towards the tip.",
+        "x",
+    ),
 )
-def mode1_faces(results: Results) -> Figure:
-    return _faces(results, "y")
-
-
-@figure(
-    "4.14",
-    "Mode II: u_x of the two rows of particles beside the crack's faces over their original x0, cell "
-    "(n_x, h̃) = (60, 1.7) at equilibrium, and Williams' solution. Hollow: prescribed particles of the "
-    "frame. The thesis: very good agreement, the error growing towards the tip.",
-)
-def mode2_faces(results: Results) -> Figure:
-    return _faces(results, "x")
-
-
-@figure(
-    "4.11a",
-    "Mode I: σ_xx of the two rows of particles ahead of the tip over their original x0, cell (n_x, h̃) "
-    "= (60, 1.7) at equilibrium, and Williams' solution at these rows. Hollow: prescribed particles. "
-    "The thesis: very good except very close to the tip, and a problem close to x0 = 0.1 m.",
-)
-def mode1_stress_xx(results: Results) -> Figure:
-    return _ahead(results, "xx")
-
-
-@figure(
-    "4.11b",
-    "Mode I: σ_yy ahead of the tip, as figure 4.11a. The thesis: agrees very well, with a problem "
-    "close to the boundary at x0 = 0.1 m.",
-)
-def mode1_stress_yy(results: Results) -> Figure:
-    return _ahead(results, "yy")
-
-
-@figure(
-    "4.11c",
-    "Mode I: σ_xy ahead of the tip, as figure 4.11a; exactly, it has opposite signs in the two rows. "
-    "The thesis: agrees very well except very close to the tip.",
-)
-def mode1_stress_xy(results: Results) -> Figure:
-    return _ahead(results, "xy")
-
-
-@figure(
-    "4.15a",
-    "Mode II: σ_xx of the two rows of particles ahead of the tip over their original x0, cell (n_x, "
-    "h̃) = (60, 1.7) at equilibrium, and Williams' solution at these rows. Hollow: prescribed "
-    "particles. The thesis: should be antisymmetric about the x axis, but is not close to the tip.",
-)
-def mode2_stress_xx(results: Results) -> Figure:
-    return _ahead(results, "xx")
-
-
-@figure(
-    "4.15b",
-    "Mode II: σ_yy ahead of the tip, as figure 4.15a. The thesis: should be antisymmetric too, but is "
-    "not close to the tip.",
-)
-def mode2_stress_yy(results: Results) -> Figure:
-    return _ahead(results, "yy")
-
-
-@figure(
-    "4.15c",
-    "Mode II: σ_xy ahead of the tip, as figure 4.15a; exactly, it is the same in the two rows. The "
-    "thesis: looks particularly good.",
-)
-def mode2_stress_xy(results: Results) -> Figure:
-    return _ahead(results, "xy")
-
-
 def _faces(results: Results, component: str) -> Figure:
     """Displacement `component` ("x" or "y") of the rows beside the crack's faces."""
     run = results.record(_CELL, block="grid")
@@ -110,23 +53,88 @@ def _faces(results: Results, component: str) -> Figure:
     return drawing
 
 
+@figures(
+    mode1_stress_xx=(
+        "4.11a",
+        "Mode I: σ_xx of the two rows of particles ahead of the tip over their original x0, cell (n_x, "
+        "h̃) = (60, 1.7) at equilibrium, and Williams' solution at these rows. Hollow: prescribed "
+        "particles. The thesis: very good except very close to the tip, and a problem close to x0 = 0.1 "
+        "m.",
+        "xx",
+    ),
+    mode1_stress_yy=(
+        "4.11b",
+        "Mode I: σ_yy ahead of the tip, as figure 4.11a. The thesis: agrees very well, with a problem "
+        "close to the boundary at x0 = 0.1 m.",
+        "yy",
+    ),
+    mode1_stress_xy=(
+        "4.11c",
+        "Mode I: σ_xy ahead of the tip, as figure 4.11a; exactly, it has opposite signs in the two "
+        "rows. The thesis: agrees very well except very close to the tip.",
+        "xy",
+    ),
+    mode2_stress_xx=(
+        "4.15a",
+        "Mode II: σ_xx of the two rows of particles ahead of the tip over their original x0, cell (n_x, "
+        "h̃) = (60, 1.7) at equilibrium, and Williams' solution at these rows. Hollow: prescribed "
+        "particles. The thesis: should be antisymmetric about the x axis, but is not close to the tip.",
+        "xx",
+    ),
+    mode2_stress_yy=(
+        "4.15b",
+        "Mode II: σ_yy ahead of the tip, as figure 4.15a. The thesis: should be antisymmetric too, but "
+        "is not close to the tip.",
+        "yy",
+    ),
+    mode2_stress_xy=(
+        "4.15c",
+        "Mode II: σ_xy ahead of the tip, as figure 4.15a; exactly, it is the same in the two rows. The "
+        "thesis: looks particularly good.",
+        "xy",
+    ),
+)
 def _ahead(results: Results, component: str) -> Figure:
     """Stress `component` ("xx", "yy" or "xy") in the rows ahead of the tip."""
     run = results.record(_CELL, block="grid")
-    scene, state = configuration(run).scene, snapshot(run, "settle")
-    stress = state[f"stress_{component}"].values
-    half = 0.5 * float(run["spacing_y"])
-    # From the first particle on: in between, the exact solution has nothing to be compared with.
-    x = half + (0.5 * scene.L - half) * np.linspace(0.0, 1.0, 400) ** 2
-    exact = [
-        williams.stress(scene.mode, x, np.full_like(x, side * half), scene.K)[
-            ("xx", "yy", "xy").index(component)
-        ]
-        for side, _, _ in _ROWS
-    ]
-    drawing = _rows(run, "ahead", stress / _MEGAPASCAL, x, [values / _MEGAPASCAL for values in exact])
+    drawing = _rows(run, "ahead", *stress_ahead(run, component, _MEGAPASCAL))
     drawing.axes[0].set_ylabel(f"stress $\\sigma_{{{component}}}$ (MPa)")
     return drawing
+
+
+def stress_ahead(
+    run: xr.Dataset, component: str, unit: float
+) -> tuple[np.ndarray, np.ndarray, list[np.ndarray]]:
+    """A stress at equilibrium, and Williams' in the two rows ahead of the tip.
+
+    Parameters
+    ----------
+    run : xarray.Dataset
+        Record of a crack.
+    component : {"xx", "yy", "xy"}
+        Of the stress.
+    unit : float
+        Of the stresses returned (Pa).
+
+    Returns
+    -------
+    stress : array [N]
+        Of all particles.
+    x : array [M]
+        Places (m) of the exact stresses. They begin at the first particle: there is nothing to compare
+        with before.
+    exact : list of two arrays [M]
+        In the row above the crack's line, and in the row below.
+    """
+    scene = configuration(run).scene
+    half = 0.5 * float(run["spacing_y"])
+    x = half + (0.5 * scene.L - half) * np.linspace(0.0, 1.0, 400) ** 2
+    exact = [
+        williams.stress(scene.mode, x, np.full_like(x, side * half), scene.K)[COMPONENTS.index(component)]
+        for side, _, _ in _ROWS
+    ]
+    stress = snapshot(run, "settle")[f"stress_{component}"].values
+    return stress / unit, x, [values / unit for values in exact]
 
 
 def _rows(run: xr.Dataset, tag: str, values: np.ndarray, x: np.ndarray, exact: list) -> Figure:
@@ -147,7 +155,7 @@ def _rows(run: xr.Dataset, tag: str, values: np.ndarray, x: np.ndarray, exact: l
     else:
         axes.plot(x, above, color="0.2", linewidth=1.2, label="exact, row above")
         axes.plot(x, below, "--", color="0.2", linewidth=1.2, label="exact, row below")
-    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+    zero_line(axes)
     axes.set_xlabel("$x_0$ (m)")
     legend_above(drawing, axes, columns=2)
     return drawing

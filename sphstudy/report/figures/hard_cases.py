@@ -1,63 +1,52 @@
 """Particle pictures of hard cases, method beside method: of each scene, `hard_cases.<function>.<scene>`.
 
-Shown are those runs of the scene that keep frames (record.frames), case by case.
+They show the runs of the scene that keep frames (record.frames), case by case.
 """
 
 from matplotlib.figure import Figure
 
 from sphstudy.analysis.results import Missing, Results
 from sphstudy.analysis.stability.cases import judged
-from sphstudy.report.figure import Animation, family
+from sphstudy.report.figure import Animation, figures
 from sphstudy.report.panels import Panels, Quantity, Shown, mises, pressure
 
 _FRAMES = 40
-"""An animation has no more of them."""
+"""Frames of an animation at most."""
 
 _MOST = 9
 """Panels of a figure at most: more cannot be read."""
 
 _SHARED = "the same colours and the same view in all panels, those of the sound runs."
-
-
-@family(
-    "particles: {}",
+_AT_THE_END = (
     "Scene {}: particles where they are at the end of the run, or when all was well for the last time, "
-    f"coloured by von Mises stress; {_SHARED}",
+    "coloured by"
 )
-def stress(results: Results, scene: str) -> Figure:
-    return _at_the_end(_panels(results, scene, mises, "von Mises stress"))
+_MOVING = "Scene {} from begin to end: particles coloured by"
+_UNTIL = f"a diverging run stops where all was well for the last time; {_SHARED}"
 
 
-@family(
-    "pressure: {}",
-    "Scene {}: particles where they are at the end of the run, or when all was well for the last time, "
-    f"coloured by pressure; {_SHARED}",
+@figures(
+    stress=("particles: {}", f"{_AT_THE_END} von Mises stress; {_SHARED}", mises, "von Mises stress"),
+    pressures=("pressure: {}", f"{_AT_THE_END} pressure; {_SHARED}", pressure, "pressure"),
 )
-def pressures(results: Results, scene: str) -> Figure:
-    return _at_the_end(_panels(results, scene, pressure, "pressure", symmetric=True))
+def _still(results: Results, quantity: Quantity, title: str, scene: str) -> Figure:
+    panels = _panels(results, quantity, title, scene)
+    panels.show(panels.end)
+    return panels.figure
 
 
-@family(
-    "motion: {}",
-    "Scene {} from begin to end: particles coloured by von Mises stress; a diverging run stops where "
-    f"all was well for the last time; {_SHARED}",
+@figures(
+    motion=("motion: {}", f"{_MOVING} von Mises stress; {_UNTIL}", mises, "von Mises stress"),
+    pressure_motion=("motion with pressure: {}", f"{_MOVING} pressure; {_UNTIL}", pressure, "pressure"),
 )
-def motion(results: Results, scene: str) -> Animation:
-    return _moving(_panels(results, scene, mises, "von Mises stress"))
+def _moving(results: Results, quantity: Quantity, title: str, scene: str) -> Animation:
+    panels = _panels(results, quantity, title, scene)
+    frames = min(_FRAMES, panels.frames)
+    last = max(1, frames - 1)
+    return Animation(panels.figure, lambda k: panels.show(panels.end * k / last), frames)
 
 
-@family(
-    "motion with pressure: {}",
-    "Scene {} from begin to end: particles coloured by pressure; a diverging run stops where all was "
-    f"well for the last time; {_SHARED}",
-)
-def pressure_motion(results: Results, scene: str) -> Animation:
-    return _moving(_panels(results, scene, pressure, "pressure", symmetric=True))
-
-
-def _panels(
-    results: Results, scene: str, quantity: Quantity, title: str, symmetric: bool = False
-) -> Panels:
+def _panels(results: Results, quantity: Quantity, title: str, scene: str) -> Panels:
     """Raises Missing if no run of the scene that keeps frames is stored."""
     shown = []
     cases = [case for case in judged(results) if case.scene == scene]
@@ -74,16 +63,7 @@ def _panels(
     if not shown:
         raise Missing(f"{results.name}: no run of scene {scene} with record.frames is stored")
     if len(shown) > _MOST:
-        raise ValueError(f"{len(shown)} runs of scene {scene} keep frames, which at most {_MOST} should")
-    return Panels(shown, quantity, title, symmetric)
-
-
-def _at_the_end(panels: Panels) -> Figure:
-    panels.show(panels.end)
-    return panels.figure
-
-
-def _moving(panels: Panels) -> Animation:
-    frames = min(_FRAMES, panels.frames)
-    last = max(1, frames - 1)
-    return Animation(panels.figure, lambda k: panels.show(panels.end * k / last), frames)
+        raise ValueError(
+            f"{len(shown)} runs of scene {scene} keep frames; a figure shows {_MOST} at most"
+        )
+    return Panels(shown, quantity, title, symmetric=quantity is pressure)

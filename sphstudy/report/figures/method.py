@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from sphstudy.analysis.results import Results
-from sphstudy.model.problem import lattice
+from sphstudy.model.lattice import lattice
 from sphstudy.numerics.sph.crack import Crack, line_of_sight, visible
 from sphstudy.numerics.sph.kernel import KERNELS, value
 from sphstudy.report.drawing import TEXT_WIDTH, built, first_configuration, particles

@@ -5,8 +5,8 @@ from matplotlib.figure import Figure
 
 from sphstudy.analysis.results import Results
 from sphstudy.model.exact import beam
-from sphstudy.report.figure import figure
-from sphstudy.report.series import PERCENT, RADIUS, curves, legend_above, ring_unstable
+from sphstudy.report.figure import figure, figures
+from sphstudy.report.series import PERCENT, RADIUS, curves, legend_above, ring_unstable, zero_line
 from sphstudy.store.record import configuration
 
 _MILLIMETRE = 1e-3
@@ -38,44 +38,40 @@ def tip_displacement(results: Results) -> Figure:
     axes.plot(samples[::10], u_y[::10] / _MILLIMETRE, "o", markersize=4, label="SPH")
     axes.plot(time, fit / _MILLIMETRE, label="fit (3.3)")
     axes.plot(time, exact / _MILLIMETRE, "--", color="0.2", label="beam (3.1)")
-    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+    zero_line(axes)
     axes.set(xlabel="time $t$ (s)", ylabel="displacement of the tip $u_y$ (mm)")
     legend_above(drawing, axes, columns=3)
     return drawing
 
 
-@figure(
-    "4.2a",
-    "Relative error of the fitted angular frequency ω against ω0 of the Euler-Bernoulli beam, over the "
-    "relative smoothing radius h̃, for each number n_y of rows, after one period. The thesis: all "
-    "errors are negative, the smallest about -3 %, and shrink as n_y grows, except at h̃ = 1.3. Rings: "
-    "cells in an instability, whose values react to anything.",
+@figures(
+    frequency_error=(
+        "4.2a",
+        "Relative error of the fitted angular frequency ω against ω0 of the Euler-Bernoulli beam, over "
+        "the relative smoothing radius h̃, for each number n_y of rows, after one period. The thesis: "
+        "all errors are negative, the smallest about -3 %, and shrink as n_y grows, except at h̃ = 1.3. "
+        "Rings: cells in an instability, whose values react to anything.",
+        "frequency_error",
+        "error of frequency $(\\omega-\\omega_0)/\\omega_0$ (%)",
+    ),
+    amplitude_error=(
+        "4.2b",
+        "Relative error of the fitted amplitude A against H0, over the relative smoothing radius h̃, "
+        "for each number n_y of rows, after one period. The thesis: all errors are positive, the "
+        "smallest about 3 %, and shrink as n_y grows, except at h̃ = 1.3. Rings: cells in an "
+        "instability.",
+        "amplitude_error",
+        "error of amplitude $(A-H_0)/H_0$ (%)",
+    ),
+    frequency_error_2d=(
+        "frequency in two dimensions",
+        "The frequencies of figure 4.2a against two-dimensional elasticity (finite elements, the body "
+        "that the particles stand for), which counts shear, rotatory inertia and plane strain, as the "
+        "beam does not. Rings: cells in an instability.",
+        "frequency_error_2d",
+        "error of $\\omega$ against 2-D elasticity (%)",
+    ),
 )
-def frequency_error(results: Results) -> Figure:
-    return _errors(results, "frequency_error", "error of frequency $(\\omega-\\omega_0)/\\omega_0$ (%)")
-
-
-@figure(
-    "4.2b",
-    "Relative error of the fitted amplitude A against H0, over the relative smoothing radius h̃, for "
-    "each number n_y of rows, after one period. The thesis: all errors are positive, the smallest "
-    "about 3 %, and shrink as n_y grows, except at h̃ = 1.3. Rings: cells in an instability.",
-)
-def amplitude_error(results: Results) -> Figure:
-    return _errors(results, "amplitude_error", "error of amplitude $(A-H_0)/H_0$ (%)")
-
-
-@figure(
-    "frequency in two dimensions",
-    "The frequencies of figure 4.2a against two-dimensional elasticity (finite elements, the body that "
-    "the particles stand for), which counts shear, rotatory inertia and plane strain, as the beam does "
-    "not. Rings: cells in an instability.",
-)
-def frequency_error_2d(results: Results) -> Figure:
-    label = "error of $\\omega$ against 2-D elasticity (%)"
-    return _errors(results, "frequency_error_2d", label)
-
-
 def _errors(results: Results, metric: str, label: str) -> Figure:
     grid = PERCENT * results.grid(metric)
     drawing = Figure(layout="constrained")

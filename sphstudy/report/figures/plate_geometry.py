@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Rectangle
 
 from sphstudy.analysis.results import Results
+from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.metrics.bending import column_angle
 from sphstudy.model.exact import beam
 from sphstudy.model.problem import Problem
@@ -21,6 +22,7 @@ from sphstudy.report.figure import figure
 
 _EXAGGERATION = 4
 _COARSE = 9
+"""Rows of a plate whose particles are drawn, at most."""
 
 
 @figure(
@@ -58,6 +60,13 @@ def geometry_of_plate(results: Results) -> Figure:
     return drawing
 
 
+def _coarse(results: Results, scene: str) -> tuple[RunConfig, Problem, float, float]:
+    """Configuration and particles of a plate of few rows, its length and height (m)."""
+    config = first_configuration(results, scene)
+    height = config.scene.L / config.scene.slenderness
+    return config, built(config, min(config.n, _COARSE)), config.scene.L, height
+
+
 def _wall(axes: Axes, height: float) -> None:
     """The wall to which a plate of that height (m) is clamped."""
     wall = Rectangle((-0.5 * height, -height), 0.5 * height, 2.0 * height, hatch="////")
@@ -83,10 +92,8 @@ def _dimension(axes: Axes, start: tuple[float, float], end: tuple[float, float],
 )
 def particles_of_plate(results: Results) -> Figure:
     """Particles of the vibrating plate, no finer than nine rows, by kind."""
-    config = first_configuration(results, "plate")
-    problem = built(config, min(config.n, _COARSE))
-    body, length = problem.body, config.scene.L
-    height = length / config.scene.slenderness
+    _, problem, length, height = _coarse(results, "plate")
+    body = problem.body
 
     drawing = Figure(figsize=(TEXT_WIDTH, 4.6), layout="constrained")
     panels = drawing.subplot_mosaic([["whole", "whole"], ["wall", "end"]], height_ratios=[1, 2])
@@ -164,10 +171,8 @@ def _bent(config, problem: Problem, factor: float) -> tuple[np.ndarray, np.ndarr
 )
 def prescribed_end(results: Results) -> Figure:
     """Particles of the bending plate, no finer than nine rows, before and after."""
-    config = first_configuration(results, "bending")
-    problem = built(config, min(config.n, _COARSE))
-    body, length = problem.body, config.scene.L
-    height = length / config.scene.slenderness
+    config, problem, length, height = _coarse(results, "bending")
+    body = problem.body
     x, y = _bent(config, problem, 1.0)
 
     drawing = Figure(figsize=(TEXT_WIDTH, 1.75), layout="constrained")
@@ -191,10 +196,8 @@ def prescribed_end(results: Results) -> Figure:
 )
 def end_angle(results: Results) -> Figure:
     """The last columns of the bent plate, the fitted line and its angle."""
-    config = first_configuration(results, "bending")
-    problem = built(config, min(config.n, _COARSE))
+    config, problem, _, height = _coarse(results, "bending")
     body = problem.body
-    height = config.scene.L / config.scene.slenderness
     x, y = _bent(config, problem, _EXAGGERATION)
     end = body.tags["end"]
     shown = body.x > body.x[end][0] - 10.5 * body.spacing_x

@@ -13,7 +13,7 @@ from sphstudy.analysis.cost_forecast import Measurement, Rates
 from sphstudy.analysis.results import Missing, Results
 from sphstudy.analysis.work_precision import ERRORS, front, points
 from sphstudy.report.drawing import TEXT_WIDTH, plain_logarithmic
-from sphstudy.report.figure import figure
+from sphstudy.report.figure import figure, figures
 from sphstudy.report.series import PERCENT
 
 _LOOKS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
@@ -41,38 +41,6 @@ _HOW = (
     "all finer ones. Crosses on the upper edge: runs that diverged, at what they cost until then. Below "
     "and left is better."
 )
-
-
-@figure(
-    "work and precision, vibrating plate",
-    f"Relative error of the plate's frequency against two-dimensional elasticity. {_HOW}",
-)
-def plate(results: Results) -> Figure:
-    return _work_precision(results, "plate", "n_y", "error of $\\omega$ against 2-D elasticity (%)")
-
-
-@figure(
-    "work and precision, bending plate",
-    f"Relative error of the bent plate's strain energy against two-dimensional elasticity. {_HOW}",
-)
-def bending(results: Results) -> Figure:
-    return _work_precision(results, "bending", "n_y", "error of energy against 2-D elasticity (%)")
-
-
-@figure(
-    "work and precision, crack in mode I",
-    f"Relative error of K_I, by an integral about the tip, of one length of the crack. {_HOW}",
-)
-def mode1(results: Results) -> Figure:
-    return _work_precision(results, "mode1", "n_x", "error of $K_\\mathrm{I}$ by integral (%)")
-
-
-@figure(
-    "work and precision, crack in mode II",
-    f"Relative error of K_II, by an integral about the tip, of one length of the crack. {_HOW}",
-)
-def mode2(results: Results) -> Figure:
-    return _work_precision(results, "mode2", "n_x", "error of $K_\\mathrm{II}$ by integral (%)")
 
 
 @figure(
@@ -117,6 +85,36 @@ def _left_out(results: Results) -> pd.DataFrame:
     )
 
 
+@figures(
+    plate=(
+        "work and precision, vibrating plate",
+        f"Relative error of the plate's frequency against two-dimensional elasticity. {_HOW}",
+        "plate",
+        "n_y",
+        "error of $\\omega$ against 2-D elasticity (%)",
+    ),
+    bending=(
+        "work and precision, bending plate",
+        f"Relative error of the bent plate's strain energy against two-dimensional elasticity. {_HOW}",
+        "bending",
+        "n_y",
+        "error of energy against 2-D elasticity (%)",
+    ),
+    mode1=(
+        "work and precision, crack in mode I",
+        f"Relative error of K_I, by an integral about the tip, of one length of the crack. {_HOW}",
+        "mode1",
+        "n_x",
+        "error of $K_\\mathrm{I}$ by integral (%)",
+    ),
+    mode2=(
+        "work and precision, crack in mode II",
+        f"Relative error of K_II, by an integral about the tip, of one length of the crack. {_HOW}",
+        "mode2",
+        "n_x",
+        "error of $K_\\mathrm{II}$ by integral (%)",
+    ),
+)
 def _work_precision(results: Results, scene: str, symbol: str, label: str) -> Figure:
     found = points(results.table, scene)
     if found["error"].isna().all():

@@ -3,7 +3,7 @@
 from matplotlib.figure import Figure
 
 from sphstudy.analysis.results import Results
-from sphstudy.report.figure import figure
+from sphstudy.report.figure import figures
 from sphstudy.report.series import PERCENT, RADIUS, curves, legend_above
 
 _DISPLACEMENTS = {"u_x_rms": "$u_x$", "u_y_rms": "$u_y$"}
@@ -14,84 +14,48 @@ _STRESSES = {
 }
 
 
-@figure(
-    "4.12a",
-    "Mode I: relative error of the energy release rate G1 by propagation of the crack (3.24) over h̃, "
-    "for each n_x. The thesis: all about -20 to -30 %, shrinking as n_x grows, except (40, 1.5), which "
-    "is much lower.",
+_G1 = (
+    "relative error of the energy release rate G1 by propagation of the crack (3.24) over h̃, for each "
+    "n_x. The thesis:"
 )
-def mode1_propagation(results: Results) -> Figure:
-    return _errors(results, 1)
-
-
-@figure(
-    "4.12b",
-    "Mode I: relative error of the energy release rate G2 by projection of the displacements of the "
-    "crack's faces over h̃, for each n_x, at equilibrium. The thesis: a factor of 100 below G1, half "
-    "of either sign, smallest at h̃ = 1.5 for each n_x, varying about 1 % over h̃.",
+_G2 = (
+    "relative error of the energy release rate G2 by projection of the displacements of the crack's "
+    "faces over h̃, for each n_x, at equilibrium. The thesis:"
 )
-def mode1_projection(results: Results) -> Figure:
-    return _errors(results, 2)
-
-
-@figure(
-    "4.16a",
-    "Mode II: relative error of the energy release rate G1 by propagation of the crack (3.24) over h̃, "
-    "for each n_x. The thesis: of order -20 to -30 %, shrinking slowly as n_x grows, lowest at h̃ = "
-    "1.3; (40, 1.3) is exceptionally low and of the other sign.",
+_U, _SIGMA = (
+    f"error norms (rms over all particles) of the {fields} at equilibrium, each over its maximum on the "
+    "grid. The thesis: they fall with n_x"
+    for fields in ("displacements", "stresses")
 )
-def mode2_propagation(results: Results) -> Figure:
-    return _errors(results, 1)
+_LOWEST = "and are lowest at h̃ = 1.3 for each n_x."
 
 
-@figure(
-    "4.16b",
-    "Mode II: relative error of the energy release rate G2 by projection of the displacements of the "
-    "crack's faces over h̃, for each n_x, at equilibrium. The thesis: 3 to 4.5 %, shrinking as n_x "
-    "grows, smallest at h̃ = 1.9, varying about 0.5 % over h̃.",
+@figures(
+    mode1_propagation=(
+        "4.12a",
+        f"Mode I: {_G1} all about -20 to -30 %, shrinking as n_x grows, except (40, 1.5), which is much "
+        "lower.",
+        1,
+    ),
+    mode1_projection=(
+        "4.12b",
+        f"Mode I: {_G2} a factor of 100 below G1, half of either sign, smallest at h̃ = 1.5 for each n_x, "
+        "varying about 1 % over h̃.",
+        2,
+    ),
+    mode2_propagation=(
+        "4.16a",
+        f"Mode II: {_G1} of order -20 to -30 %, shrinking slowly as n_x grows, lowest at h̃ = 1.3; (40, "
+        "1.3) is exceptionally low and of the other sign.",
+        1,
+    ),
+    mode2_projection=(
+        "4.16b",
+        f"Mode II: {_G2} 3 to 4.5 %, shrinking as n_x grows, smallest at h̃ = 1.9, varying about 0.5 % "
+        "over h̃.",
+        2,
+    ),
 )
-def mode2_projection(results: Results) -> Figure:
-    return _errors(results, 2)
-
-
-@figure(
-    "4.13a",
-    "Mode I: error norms (rms over all particles) of the displacements at equilibrium, each over its "
-    "maximum on the grid. The thesis: they fall with n_x and favour low h̃; at large h̃ they fall "
-    "faster.",
-)
-def mode1_displacement_norms(results: Results) -> Figure:
-    return _norms(results, _DISPLACEMENTS)
-
-
-@figure(
-    "4.13b",
-    "Mode I: error norms (rms over all particles) of the stresses at equilibrium, each over its "
-    "maximum on the grid. The thesis: they fall with n_x; σ_xx and σ_yy favour h̃ = 1.3 and 1.5, σ_xy "
-    "is larger at 1.3.",
-)
-def mode1_stress_norms(results: Results) -> Figure:
-    return _norms(results, _STRESSES)
-
-
-@figure(
-    "4.17a",
-    "Mode II: error norms (rms over all particles) of the displacements at equilibrium, each over its "
-    "maximum on the grid. The thesis: they fall with n_x and are lowest at h̃ = 1.3 for each n_x.",
-)
-def mode2_displacement_norms(results: Results) -> Figure:
-    return _norms(results, _DISPLACEMENTS)
-
-
-@figure(
-    "4.17b",
-    "Mode II: error norms (rms over all particles) of the stresses at equilibrium, each over its "
-    "maximum on the grid. The thesis: they fall with n_x and are lowest at h̃ = 1.3 for each n_x.",
-)
-def mode2_stress_norms(results: Results) -> Figure:
-    return _norms(results, _STRESSES)
-
-
 def _errors(results: Results, estimate: int) -> Figure:
     """Error of the release rate by propagation (estimate 1) or projection (2)."""
     drawing = Figure(layout="constrained")
@@ -102,6 +66,20 @@ def _errors(results: Results, estimate: int) -> Figure:
     return drawing
 
 
+@figures(
+    mode1_displacement_norms=(
+        "4.13a",
+        f"Mode I: {_U} and favour low h̃; at large h̃ they fall faster.",
+        _DISPLACEMENTS,
+    ),
+    mode1_stress_norms=(
+        "4.13b",
+        f"Mode I: {_SIGMA}; σ_xx and σ_yy favour h̃ = 1.3 and 1.5, σ_xy is larger at 1.3.",
+        _STRESSES,
+    ),
+    mode2_displacement_norms=("4.17a", f"Mode II: {_U} {_LOWEST}", _DISPLACEMENTS),
+    mode2_stress_norms=("4.17b", f"Mode II: {_SIGMA} {_LOWEST}", _STRESSES),
+)
 def _norms(results: Results, fields: dict[str, str]) -> Figure:
     """A panel for each field: its norm over the largest on the grid. `fields`: metric to symbol."""
     drawing = Figure(figsize=(6.6, 3.2), layout="constrained")

@@ -9,8 +9,8 @@ from matplotlib.lines import Line2D
 
 from sphstudy.analysis.results import Missing, Results
 from sphstudy.report.drawing import TEXT_WIDTH, plain_logarithmic
-from sphstudy.report.figure import figure
-from sphstudy.report.series import PERCENT, RADIUS, curves, legend_above, ring_unstable
+from sphstudy.report.figure import figure, figures
+from sphstudy.report.series import PERCENT, RADIUS, curves, legend_above, ring_unstable, zero_line
 
 METHODS = {"thesis": "thesis", "tl": "total Lagrangian"}
 """Methods that are compared, as the configuration and as a reader calls them, in the order of panels."""
@@ -61,28 +61,6 @@ def plate_frequency(results: Results) -> Figure:
 
 
 @figure(
-    "energy release rate and stress intensity of mode I, side by side",
-    "Mode I: relative errors over h̃ for each n_x of the energy release rate by propagation of the crack "
-    "(G1), by projection of the displacements of its faces (G2), and of K_I by an integral over an "
-    "annulus about the tip; the thesis's method stepped, the other solved for equilibrium. The panels "
-    "of a row share a scale, or each has its own and says so, as for the plate. The thesis: G1 -18 to "
-    "-30 %, but for (40, 1.5), G2 within 1 %.",
-)
-def mode1_release_rates(results: Results) -> Figure:
-    return _release_rates(results, 1)
-
-
-@figure(
-    "energy release rate and stress intensity of mode II, side by side",
-    "Mode II: relative errors over h̃ for each n_x of G1 and G2 and of K_II by an integral over an "
-    "annulus about the tip, as for mode I. The panels of a row share a scale, or each has its own "
-    "and says so. The thesis: G1 -20 to -35 %, but for (40, 1.3), G2 3 to 4.5 %.",
-)
-def mode2_release_rates(results: Results) -> Figure:
-    return _release_rates(results, 2)
-
-
-@figure(
     "error and cost",
     "Size of the error against the CPU time of a run (compilation left out), all h̃: frequency of the "
     "plate against two-dimensional elasticity, K_I and K_II of the cracks by an integral about the tip. "
@@ -121,6 +99,24 @@ def error_and_cost(results: Results) -> Figure:
     return drawing
 
 
+@figures(
+    mode1_release_rates=(
+        "energy release rate and stress intensity of mode I, side by side",
+        "Mode I: relative errors over h̃ for each n_x of the energy release rate by propagation of the "
+        "crack (G1), by projection of the displacements of its faces (G2), and of K_I by an integral "
+        "over an annulus about the tip; the thesis's method stepped, the other solved for equilibrium. "
+        "The panels of a row share a scale, or each has its own and says so, as for the plate. The "
+        "thesis: G1 -18 to -30 %, but for (40, 1.5), G2 within 1 %.",
+        1,
+    ),
+    mode2_release_rates=(
+        "energy release rate and stress intensity of mode II, side by side",
+        "Mode II: relative errors over h̃ for each n_x of G1 and G2 and of K_II by an integral over an "
+        "annulus about the tip, as for mode I. The panels of a row share a scale, or each has its own "
+        "and says so. The thesis: G1 -20 to -35 %, but for (40, 1.3), G2 3 to 4.5 %.",
+        2,
+    ),
+)
 def _release_rates(results: Results, mode: int) -> Figure:
     """A row of panels for each of G1, G2 and K, a column for each method."""
     roman = "I" * mode
@@ -150,7 +146,7 @@ def _pair(results: Results, pair: np.ndarray, scene: str, metric: str, symbol: s
     grids = [_grid(results, scene, method, metric) for method in METHODS]
     for axes, grid in zip(pair, grids, strict=True):
         curves(axes, grid, symbol)
-        axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+        zero_line(axes)
     limits = np.array([axes.get_ylim() for axes in pair])
     sizes = [grid.abs().max(axis=None) for grid in grids]
     for axes in pair:

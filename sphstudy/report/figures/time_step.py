@@ -14,7 +14,7 @@ from sphstudy.analysis.results import Missing, Results
 from sphstudy.analysis.time_steps import HARMLESS
 from sphstudy.report.drawing import TEXT_WIDTH
 from sphstudy.report.figure import figure
-from sphstudy.report.series import PERCENT, RADIUS
+from sphstudy.report.series import MARKERS, PERCENT, RADIUS
 
 PANELS = {
     ("tl", "verlet"): "total Lagrangian, Verlet",
@@ -22,8 +22,6 @@ PANELS = {
     ("thesis", "heun"): "thesis, Heun",
 }
 """Method and integrator: what they are called. With viscosity, but for Verlet's method."""
-
-_MARKERS = "os^Dv"
 
 _ARROW = "$\\downarrow$"
 
@@ -56,7 +54,7 @@ def limits(results: Results) -> Figure:
     drawing.axes[0].set(ylim=(0.0, None), ylabel="largest stable $C$")
     drawing.supxlabel(RADIUS, fontsize="medium")
     handles = [
-        Line2D([], [], linestyle=":", color=f"C{k}", marker=_MARKERS[k], label=f"$\\nu = {nu:g}$")
+        Line2D([], [], linestyle=":", color=f"C{k}", marker=MARKERS[k], label=f"$\\nu = {nu:g}$")
         for k, nu in enumerate(ratios)
     ]
     handles.append(Line2D([], [], linestyle="--", color="0.4", label="$2/\\omega_\\mathrm{max}$"))
@@ -72,7 +70,7 @@ def _limit(axes: Axes, own: pd.DataFrame, number: int) -> None:
     look: dict[str, Any] = {"color": f"C{number}"}
     with_limit = own.dropna(subset=["found"])
     axes.plot(with_limit["h"], with_limit["predicted"], "--", **look, linewidth=1.2)
-    axes.plot(with_limit["h"], with_limit["found"], ":", marker=_MARKERS[number], **look, linewidth=1.0)
+    axes.plot(with_limit["h"], with_limit["found"], ":", marker=MARKERS[number], **look, linewidth=1.0)
     none = own[own["found"].isna()]
     # Side by side: limits that were not found all lie at the same height.
     shift = 0.04 * (number - 1)
@@ -110,7 +108,7 @@ def worth(results: Results) -> Figure:
 
 def _change(axes: Axes, own: pd.DataFrame, best: pd.DataFrame, number: int, h: float) -> None:
     """Runs of one scheme and h; `best`: the row that is worth taking, or none."""
-    look: dict[str, Any] = {"color": f"C{number}", "marker": _MARKERS[number]}
+    look: dict[str, Any] = {"color": f"C{number}", "marker": MARKERS[number]}
     error = f"{PERCENT * own['error'].iloc[0]:+.1f}".replace("-", "−")
     label = f"$\\tilde{{h}}={h:g}$ (error {error} %): "
     label += f"C = {best['courant'].iloc[0]:.2f}" if len(best) else "none"

@@ -11,14 +11,14 @@ from matplotlib.figure import Figure
 from sphstudy.analysis.results import Missing, Results
 from sphstudy.analysis.richardson import extrapolate
 from sphstudy.metrics.regularity import EARLY
-from sphstudy.report.drawing import TEXT_WIDTH, beside_wall, plain_logarithmic
-from sphstudy.report.figure import figure
-from sphstudy.report.figures import crack_field
-from sphstudy.report.figures.side_by_side_fields import LONG, NEAR
+from sphstudy.report.drawing import TEXT_WIDTH, plain_logarithmic
+from sphstudy.report.figure import figure, figures
+from sphstudy.report.figures import bending, crack_field
+from sphstudy.report.figures.crack_field import OPENING, SLIDING, caption
 from sphstudy.report.figures.von_mises import snapshot_at
-from sphstudy.report.series import PERCENT, RADIUS, curves, legend_above
-from sphstudy.store.record import configuration
+from sphstudy.report.series import MARKERS, PERCENT, RADIUS, curves, legend_above, zero_line
 
+_METHOD = "total Lagrangian, "
 _MILLIMETRE = 1e-3
 
 _FINEST = 41
@@ -26,8 +26,6 @@ _FINEST = 41
 
 _H = 1.3
 """h̃ at which the cracks are refined beyond the grid."""
-
-_MARKERS = "os^Dv"
 
 
 @figure(
@@ -44,7 +42,7 @@ def plate_frequency(results: Results) -> Figure:
     modes = PERCENT * results.grid("frequency_error_2d", {"n": _FINEST}, "modes")[_FINEST]
     options: dict[str, Any] = {"color": "C3", "marker": "D", "markerfacecolor": "none"}
     axes.plot(modes.index, modes, "--", **options, label=f"$n_y = {_FINEST}$, modes")
-    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+    zero_line(axes)
     axes.set(xlabel=RADIUS, ylabel="error of $\\omega$ against 2-D elasticity (%)")
     legend_above(drawing, axes, columns=4)
     return drawing
@@ -61,7 +59,7 @@ def plate_refinement(results: Results) -> Figure:
     drawing = Figure(layout="constrained")
     axes = drawing.subplots()
     for number, (h, errors) in enumerate(grid.items()):
-        _signed(axes, errors.dropna(), f"C{number}", _MARKERS[number % len(_MARKERS)], h)
+        _signed(axes, errors.dropna(), f"C{number}", MARKERS[number % len(MARKERS)], h)
     for name, face in (("too high", "0.4"), ("too low", "white")):
         axes.plot([], [], "o", color="0.4", markerfacecolor=face, label=f"$\\omega$ {name}")
     axes.set(xscale="log", yscale="log")
@@ -83,8 +81,8 @@ def plate_refinement(results: Results) -> Figure:
 )
 def bending_held(results: Results) -> Figure:
     run = results.record(block="held")
-    states = [(f"$t = {time:g}$ s", snapshot_at(run, time)) for time in (EARLY, LONG)]
-    return beside_wall(states, NEAR * configuration(run).scene.L)
+    states = [(f"$t = {time:g}$ s", snapshot_at(run, time)) for time in (EARLY, bending.LONG)]
+    return bending.beside_wall(states)
 
 
 @figure(
@@ -102,9 +100,9 @@ def bending_energy(results: Results) -> Figure:
     }
     for axes, (metric, (factor, label)) in zip(panels, quantities.items(), strict=True):
         for number, (h, errors) in enumerate(_over_spacing(results, metric, "grid").items()):
-            marker = _MARKERS[number % len(_MARKERS)]
+            marker = MARKERS[number % len(MARKERS)]
             axes.plot(errors.index, factor * errors, marker=marker, label=f"$\\tilde{{h}} = {h:g}$")
-        axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+        zero_line(axes)
         axes.set(ylabel=label)
         axes.set_xlim(left=0.0)
     drawing.supxlabel("spacing $\\Delta = D/n_y$ (mm)", fontsize="medium")
@@ -112,44 +110,12 @@ def bending_energy(results: Results) -> Figure:
     return drawing
 
 
-@figure(
-    "stress intensity of mode I over the spacing, total Lagrangian",
-    "Mode I at equilibrium, h̃ = 1.3: errors of K_I and J by integrals over an annulus about the tip and "
-    "of G1 by propagation of the crack over the spacing Δx = L/n_x, n_x = 40, 50, 60, 80, 120. Lines: "
-    "first order through the two finest. Hollow: what this makes of the error at Δx = 0; on the right "
-    "the same magnified, with its uncertainty. An error that is of first order and nothing else lies on "
-    "a line through the origin.",
+@figures(
+    mode1_field=("deformed square, opening, total Lagrangian", caption(*OPENING, _METHOD), "yy"),
+    mode2_field=("deformed square, sliding, total Lagrangian", caption(*SLIDING, _METHOD), "xy"),
 )
-def mode1_stress_intensity(results: Results) -> Figure:
-    return _refined(results, "I")
-
-
-@figure(
-    "stress intensity of mode II over the spacing, total Lagrangian",
-    "Mode II at equilibrium, h̃ = 1.3: errors of K_II, J and G1 over the spacing, drawn as for mode I.",
-)
-def mode2_stress_intensity(results: Results) -> Figure:
-    return _refined(results, "II")
-
-
-@figure(
-    "deformed square, opening, total Lagrangian",
-    "Particles of the mode I square at their positions at equilibrium (not exaggerated), total "
-    "Lagrangian, cell (n_x, h̃) = (60, 1.7), coloured by σ_yy. The crack gapes on the left. Colours end "
-    "at the exact stress a twentieth of the side ahead of the tip.",
-)
-def mode1_field(results: Results) -> Figure:
-    return crack_field.mode1_field.draw(results)
-
-
-@figure(
-    "deformed square, sliding, total Lagrangian",
-    "Particles of the mode II square at their positions at equilibrium (not exaggerated), total "
-    "Lagrangian, cell (n_x, h̃) = (60, 1.7), coloured by σ_xy. The faces of the crack on the left slide. "
-    "Colours end at the exact stress a twentieth of the side ahead of the tip.",
-)
-def mode2_field(results: Results) -> Figure:
-    return crack_field.mode2_field.draw(results)
+def _field(results: Results, component: str) -> Figure:
+    return crack_field.draw(results, component)
 
 
 def _over_spacing(results: Results, metric: str, block: str) -> pd.DataFrame:
@@ -188,6 +154,23 @@ def _orders(axes: Axes, grid: pd.DataFrame) -> None:
     axes.set_xlim(left=finest / 1.18)
 
 
+@figures(
+    mode1_stress_intensity=(
+        "stress intensity of mode I over the spacing, total Lagrangian",
+        "Mode I at equilibrium, h̃ = 1.3: errors of K_I and J by integrals over an annulus about the "
+        "tip and of G1 by propagation of the crack over the spacing Δx = L/n_x, n_x = 40, 50, 60, 80, "
+        "120. Lines: first order through the two finest. Hollow: what this makes of the error at Δx = "
+        "0; on the right the same magnified, with its uncertainty. An error that is of first order and "
+        "nothing else lies on a line through the origin.",
+        "I",
+    ),
+    mode2_stress_intensity=(
+        "stress intensity of mode II over the spacing, total Lagrangian",
+        "Mode II at equilibrium, h̃ = 1.3: errors of K_II, J and G1 over the spacing, drawn as for mode "
+        "I.",
+        "II",
+    ),
+)
 def _refined(results: Results, roman: str) -> Figure:
     """Errors of K, J and G1 over the spacing, and what they tend to as it goes to zero."""
     quantities = {
@@ -201,7 +184,7 @@ def _refined(results: Results, roman: str) -> Figure:
         points = _points(results, metric)
         spacings = points["spacing"].to_numpy() / _MILLIMETRE
         errors = PERCENT * points[metric].to_numpy()
-        look: dict[str, Any] = {"color": f"C{number}", "marker": _MARKERS[number]}
+        look: dict[str, Any] = {"color": f"C{number}", "marker": MARKERS[number]}
         over_spacing.plot(spacings, errors, linestyle="none", label=symbol, **look)
         limit = extrapolate(spacings, errors, order=1.0)
         if np.isfinite(limit.value):
@@ -212,7 +195,7 @@ def _refined(results: Results, roman: str) -> Figure:
             over_spacing.plot([0.0], [limit.value], **hollow)
             at_zero.errorbar([number], [limit.value], [limit.uncertainty], **hollow, capsize=4)
     for axes in (over_spacing, at_zero):
-        axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+        zero_line(axes)
     over_spacing.set(xlabel="spacing $\\Delta x = L/n_x$ (mm)", ylabel="relative error (%)")
     at_zero.set(title="at $\\Delta x = 0$", xlim=(-0.5, len(quantities) - 0.5))
     at_zero.set_xticks(range(len(quantities)), list(quantities.values()))

@@ -3,7 +3,7 @@
 import pytest
 
 from sphstudy.analysis.claims.claim import NOT, PARTLY, REPRODUCED, UNKNOWN, find
-from tests.analysis.claims.synthetic import results
+from tests.support.results import results
 
 POINT = {
     "scene": "bending",

@@ -3,8 +3,8 @@
 import pytest
 
 from sphstudy.analysis.claims.claim import NOT, PARTLY, REPRODUCED, UNKNOWN, find
-from sphstudy.analysis.claims.stability import FULL, THOUSANDTH, curvature_at_neighbour
-from tests.analysis.claims.synthetic import results
+from sphstudy.analysis.claims.tensile_instability import FULL, THOUSANDTH, curvature_at_neighbour
+from tests.support.results import results
 
 KERNELS = ("cubic", "wendland", "quintic")
 

@@ -3,7 +3,7 @@
 import pytest
 
 from sphstudy.analysis.claims.claim import NOT, PARTLY, REPRODUCED, UNKNOWN, find
-from tests.analysis.claims.synthetic import results
+from tests.support.results import results
 
 H = (1.3, 1.5, 1.7)
 

@@ -3,7 +3,7 @@
 import pytest
 
 from sphstudy.analysis.claims.claim import NOT, PARTLY, REPRODUCED, UNKNOWN, find
-from tests.analysis.claims.synthetic import change, grid, results
+from tests.support.results import change, grid, results
 
 PLATE = (9, 15, 21)
 

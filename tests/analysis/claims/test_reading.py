@@ -4,12 +4,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from sphstudy.analysis.claims import reading, stability
+from sphstudy.analysis.claims import reading, tensile_instability
 from sphstudy.analysis.claims.claim import UNKNOWN, every_claim, find
 from sphstudy.analysis.effects import CONTROL
 from sphstudy.analysis.results import Missing
 from sphstudy.configuration import study_file
-from tests.analysis.claims.synthetic import change, grid, results
+from tests.support.results import change, grid, results
 
 IDS = [
     *(f"V{k}" for k in range(1, 8)), "B1", "B2", "B3", *(f"C{k}" for k in range(1, 5)),
@@ -74,7 +74,7 @@ def test_words():
 
 @pytest.mark.parametrize(("h", "side"), [(1.3, "tension"), (1.7, "compression"), (1.5, "inflection")])
 def test_the_neighbour_decides_which_side_is_unstable(h, side):
-    assert side in stability.unstable_side(h)
+    assert side in tensile_instability.unstable_side(h)
 
 
 def test_kernels_are_compared_as_far_as_they_are_stored():
@@ -82,11 +82,13 @@ def test_kernels_are_compared_as_far_as_they_are_stored():
     rows = [
         point | {"method.kernel": "quintic", "frequency_error": -0.05, "stress_roughness_bottom": 0.01}
     ]
-    told = stability.kernel_test(results("plate", [], conjectures=results("conjectures", rows)), 1.3)
+    told = tensile_instability.kernel_test(
+        results("plate", [], conjectures=results("conjectures", rows)), 1.3
+    )
     assert told == (
         "ω error and roughness below the axis at (15, 1.3): quintic kernel (h⁴ W'' = +0.0093) −5 %, 1 %"
     )
-    assert stability.kernel_test(results("plate", []), 1.3) == ""
+    assert tensile_instability.kernel_test(results("plate", []), 1.3) == ""
 
 
 def test_open_choices_are_quoted_with_their_extremes_once_all_are_stored():

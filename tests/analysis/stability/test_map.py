@@ -1,6 +1,5 @@
 """The stability map: places of runs by case and method, tables, figure, pictures, the command."""
 
-import copy
 from dataclasses import replace
 
 import matplotlib.style
@@ -18,8 +17,10 @@ from sphstudy.configuration.composition import session
 from sphstudy.report import figure, page, panels, render, stability_tables
 from sphstudy.report.figures import hard_cases, stability
 from sphstudy.report.stability_tables import bounds, counts, quoted, stability_map
-from tests.analysis.stability.synthetic import SAMPLES, load, made_up
 from tests.report.sample import Reader
+from tests.support.figures import drawn
+from tests.support.records import SAMPLES, two_particles
+from tests.support.results import altered, stored
 
 STUDY = """
 title: Hard cases
@@ -37,23 +38,24 @@ BROKEN = {"largest_speed": np.where(TIME < 4.0, 0.0, 1e6)}
 MOVED = np.array(((0.5, 1.5), (0.0, 0.25)))
 
 
-def make(flat, config):
+def make(point, config):
     """thesis, h = 1.3: degraded; with H0 = 0.1: diverged at 1.5, missing at 1.3. Bending: failed. The
     second of two runs that share a place: degraded.
     """
+    flat = config.flat()
     if flat["scene"] == "bending":
-        return made_up(config, "failed", message="ValueError")
+        return two_particles(config, "failed", message="ValueError")
     if flat["method"] == "thesis" and flat["scene.H0"] == 0.1:
         states = [(0.0, np.eye(2)), (3.0, 9.0 * MOVED)]
         return (
-            made_up(config, "diverged", message="a step too far", states=states)
+            two_particles(config, "diverged", message="a step too far", states=states)
             if flat["h"] == 1.5
             else None
         )
     states = [(t, np.eye(2) + 0.1 * t * MOVED) for t in (0.0, 2.0, 4.0, 6.0)]
     alone = flat["record.frames"] == 0 and flat["solve.courant"] == 0.8 and flat["method"] == "tl"
     broken = alone or (flat["method"], flat["h"]) == ("thesis", 1.3)
-    return made_up(config, states=states, **(BROKEN if broken else {}))
+    return two_particles(config, states=states, **(BROKEN if broken else {}))
 
 
 @pytest.fixture(scope="module")
@@ -64,7 +66,7 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def found(folder):
     with session() as hydra, pytest.MonkeyPatch.context() as patch:
-        return load(folder, patch, hydra, STUDY, make)
+        return stored(folder, patch, hydra, STUDY, make)
 
 
 def test_runs_are_placed_by_what_tells_them_apart(found):
@@ -109,9 +111,8 @@ def test_what_others_found_stands_beside_what_is_found_here(found, monkeypatch):
     assert quoted(found, judged(found)) is None
     one = Quoted(quantity="period", units="s", between=(0.283, 0.285), source="a paper")
     monkeypatch.setattr(stability_tables, "read_quoted", lambda scene: [one] if scene == "plate" else [])
-    with_period = copy.copy(found)
     period = np.where(found.table["method"] == "tl", 0.25 + 0.01 * found.table["scene.H0"], np.nan)
-    with_period.table = found.table.assign(period=period)
+    with_period = altered(found, table=found.table.assign(period=period))
     (row,) = quoted(with_period, judged(found)).rows
     assert [cell.text for cell in row] == [
         "plate", "period (s)", "0.2830 to 0.2850", "a paper",
@@ -119,11 +120,6 @@ def test_what_others_found_stands_beside_what_is_found_here(found, monkeypatch):
     ]  # fmt: skip
     (row,) = quoted(found, judged(found)).rows
     assert row[-1].text == "–"
-
-
-def drawn(name, found):
-    with matplotlib.style.context(figure.STYLE):
-        return figure.find(name).draw(found)
 
 
 def test_the_figure_shows_every_run_in_its_place(found):
@@ -136,8 +132,7 @@ def test_the_figure_shows_every_run_in_its_place(found):
     assert written[0.5, 0.7] == "speed"
     assert written[1.5, 1.3].endswith(" 10")
     assert written[6.5, 2.7] == "failed"
-    empty = copy.copy(found)
-    empty._record = lambda row: None
+    empty = altered(found, record=lambda row: None)
     with pytest.raises(Missing, match="no run is stored"):
         drawn("stability.map", empty)
 
@@ -195,10 +190,9 @@ def test_cases_stand_below_each_other_if_there_is_room(cases, slender, columns, 
 
 
 def test_an_animation_goes_through_the_states(found, tmp_path):
-    few = copy.copy(found)
-    few.table = found.table[(found.table["method"] == "tl") & (found.table["solve.courant"] == 0.8)]
-    few.table = few.table[few.table["scene.H0"] == 0.02]
-    few.definition = replace(found.definition, figures=["hard_cases.motion.plate"])
+    table = found.table[(found.table["method"] == "tl") & (found.table["solve.courant"] == 0.8)]
+    definition = replace(found.definition, figures=["hard_cases.motion.plate"])
+    few = altered(found, table=table[table["scene.H0"] == 0.02], definition=definition)
     moving = drawn("hard_cases.motion.plate", few)
     assert moving.frames == 4
     (body,) = moving.figure.axes[0].collections
@@ -218,7 +212,7 @@ def test_an_animation_goes_through_the_states(found, tmp_path):
 
 def test_more_panels_than_can_be_read_are_refused(found, monkeypatch):
     monkeypatch.setattr(hard_cases, "_MOST", 6)
-    with pytest.raises(ValueError, match="7 runs of scene plate keep frames, which at most 6"):
+    with pytest.raises(ValueError, match="7 runs of scene plate keep frames; a figure shows 6"):
         drawn("hard_cases.stress.plate", found)
 
 
@@ -226,19 +220,18 @@ def test_a_scene_without_frames_has_no_pictures(found):
     with pytest.raises(Missing, match="scene bending"):
         drawn("hard_cases.pressures.bending", found)
     for name in ("hard_cases.stress", "stability.map.plate", "hard_cases.none.plate"):
-        with pytest.raises(figure.ConfigurationError, match="no such figure"):
+        with pytest.raises(figure.ConfigurationError, match=f"unknown figure '{name}'"):
             figure.find(name)
 
 
 def test_the_page_has_the_map(found, folder, tmp_path, monkeypatch):
     monkeypatch.setitem(catalogue.FOLDERS, "studies", folder)
-    plain = copy.copy(found)
-    plain.definition = replace(found.definition, figures=[])
+    plain = altered(found, definition=replace(found.definition, figures=[]))
     read = Reader(page.write(plain, tmp_path).read_text(encoding="utf-8"))
     assert "made_up-stability" in read.ids
     assert len(read.tables["Stability map"][1]) == 12
     assert "Bounds of a sound run" in read.tables
-    plain.definition = replace(plain.definition, judged=False)
+    plain = altered(plain, definition=replace(plain.definition, judged=False))
     assert "Stability map" not in page.write(plain, tmp_path).read_text(encoding="utf-8")
 
 

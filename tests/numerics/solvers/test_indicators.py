@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from sphstudy.model.lattice import lattice, lattice_sites
 from sphstudy.model.material import Material
-from sphstudy.model.problem import Body, Problem, lattice, lattice_sites
+from sphstudy.model.problem import Body, Problem
 from sphstudy.numerics.solvers.indicators import Indicators, cells, partners
 from tests.numerics.sph.clouds import FREE
 

@@ -1,30 +1,43 @@
-"""Records and studies made up without running anything."""
-
-import json
+"""Records made up without running anything."""
 
 import numpy as np
 import xarray as xr
 
-from sphstudy import catalogue
-from sphstudy.analysis import results
 from sphstudy.metrics.metric import Metric
 from sphstudy.numerics.solvers.solution import FIELDS, HISTORY, LAST_GOOD
-from sphstudy.store import identity, record
-from sphstudy.store.netcdf import write
-from sphstudy.store.store import Store
+from sphstudy.store import identity
+from sphstudy.store.record import with_metrics, with_outcome
 
 SAMPLES = 11
 MASS = np.array((1.0, 3.0))
 ORIGIN = {
-    "git_state": "0" * 40,
-    "sphstudy_version": "1",
-    "python_version": "3",
-    "library_versions": "",
-    "processor": "",
+    "git_state": "0123456789abcdef0123456789abcdef01234567 (dirty)",
+    "sphstudy_version": "9.8.7",
+    "python_version": "3.12",
+    "library_versions": "numpy 2.0",
+    "processor": "Abacus",
+    "operating_system": "none",
 }
 
 
-def made_up(config, status="done", metrics=None, message="", times=None, states=None, **history):
+def record(config, status="done", message="", metrics=None, cost=None, fields=None):
+    """The record of a point: metrics {name: value}, cost {name: (value, unit)}, fields: a Dataset."""
+    numbers = {name: Metric(value, "1", name) for name, value in (metrics or {}).items()}
+    run = xr.Dataset() if fields is None else fields
+    run = with_metrics(run, numbers, identity.metrics_version(config))
+    spent = {name: Metric(value, unit, name) for name, (value, unit) in (cost or {}).items()}
+    attributes = {
+        "title": config.label,
+        "configuration": config.text,
+        "key": identity.key(config),
+        "numerics_version": identity.numerics_version(config),
+    }
+    run = with_outcome(run, status, message, spent, attributes | ORIGIN)
+    run.attrs["date_created"] = "2026-01-02T03:04:05Z"
+    return run
+
+
+def two_particles(config, status="done", metrics=None, message="", times=None, states=None, **history):
     """A record of two particles 1 m apart, sampled each second; `states`: time and places [2, 2] of its
     snapshots, the last of a diverged run its last good one. At rest, unless `history` says otherwise.
     """
@@ -53,22 +66,4 @@ def made_up(config, status="done", metrics=None, message="", times=None, states=
         run[name] = (("snapshot", "particle"), fields[:, k])
     for name, values in (columns | history).items():
         run[f"history_{name}"] = ("sample", values)
-    found = {name: Metric(value, "1", name) for name, value in (metrics or {}).items()}
-    run = record.with_metrics(run, found, identity.metrics_version(config))
-    attributes = {"title": config.label, "configuration": json.dumps(config.as_dict()), **ORIGIN}
-    attributes |= {"key": identity.key(config), "numerics_version": identity.numerics_version(config)}
-    return record.with_outcome(run, status, message, {}, attributes | {"date_created": "2026-01-02"})
-
-
-def load(folder, monkeypatch, hydra, text, make):
-    """Results of a study of this text, with the record of each point that `make(flat, config)` gives."""
-    (folder / "made_up.yaml").write_text(text)
-    monkeypatch.setitem(catalogue.FOLDERS, "studies", folder)
-    store = Store(folder / "results")
-    empty = results.load("made_up", hydra, [], str(store.folder))
-    for row in empty.table.index:
-        config = empty.config_at(row)
-        run = make(config.flat(), config)
-        if run is not None:
-            write(run, store.record_path(config))
-    return results.load("made_up", hydra, [], str(store.folder))
+    return record(config, status, message, metrics, fields=run)

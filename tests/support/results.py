@@ -1,4 +1,4 @@
-"""Results made up in a table, without a store."""
+"""Results made up: in a table, by altering others, or with records in a store."""
 
 from collections.abc import Callable
 from types import SimpleNamespace
@@ -6,8 +6,11 @@ from typing import Any
 
 import pandas as pd
 
-from sphstudy.analysis.results import Results
+from sphstudy import catalogue
+from sphstudy.analysis.results import Results, load
 from sphstudy.configuration import study_file
+from sphstudy.store.netcdf import write
+from sphstudy.store.store import Store
 
 COLUMNS = (
     "study", "block", "varied", "h", "n", "scene", "scene.H0", "scene.K", "method.kernel",
@@ -17,6 +20,37 @@ COLUMNS = (
 SMOOTHING = (1.3, 1.5, 1.7, 1.9)
 
 Rows = list[dict[str, Any]]
+
+
+def altered(found: Results, **changed: Any) -> Results:
+    """The same results, but for some of what Results takes: table, record, other …"""
+    own: dict[str, Any] = {
+        "name": found.name,
+        "definition": found.definition,
+        "table": found.table.copy(),
+        "attributes": found.attributes,
+        "record": found.stored_at,
+        "other": found.other,
+        "config": found.config_at,
+    }
+    return Results(**(own | changed))
+
+
+def stored(folder, monkeypatch, hydra, text: str, make: Callable, name: str = "made_up") -> Results:
+    """Results of a study of this text, with the record of each point that `make(point, config)` gives.
+
+    point: its row of the table. The study and its records lie in the folder.
+    """
+    (folder / f"{name}.yaml").write_text(text)
+    monkeypatch.setitem(catalogue.FOLDERS, "studies", folder)
+    store = Store(folder / "results")
+    empty = load(name, hydra, [], str(store.folder))
+    for row, point in empty.table.iterrows():
+        config = empty.config_at(row)
+        run = make(point, config)
+        if run is not None:
+            write(run, store.record_path(config))
+    return load(name, hydra, [], str(store.folder))
 
 
 def results(name: str, rows: Rows, scene: dict[str, Any] | None = None, **others: Results) -> Results:

@@ -2,10 +2,10 @@
 
 from typing import Any
 
-from sphstudy.analysis.claims.reading import percent, size
+from sphstudy.analysis.claims.reading import signed
 from sphstudy.analysis.results import Missing, Results
 from sphstudy.numerics.sph.kernel import KERNELS, curvature
-from sphstudy.text import number
+from sphstudy.text import number, percent
 
 INFLECTION = 1e-9
 """A curvature h⁴ W'' smaller than this is zero but for rounding: the neighbour sits on the inflection."""
@@ -63,7 +63,7 @@ def kernel_test(results: Results, smoothing: float) -> str:
     cases = [(_kernel_words(kernel, smoothing), kernel, FULL) for kernel in KERNELS]
     cases.append(("cubic kernel at a thousandth of the amplitude", "cubic", THOUSANDTH))
     told = [
-        f"{words} {percent(found[0])}, {size(found[1])}"
+        f"{words} {signed(found[0])}, {percent(found[1])}"
         for words, kernel, amplitude in cases
         if (found := plate_test(results, smoothing, kernel, 0.0, amplitude))
     ]

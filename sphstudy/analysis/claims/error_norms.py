@@ -9,11 +9,11 @@ from sphstudy.analysis.claims.reading import (
     best_smoothing,
     choices,
     count,
+    elsewhere,
     falls,
     finding,
     whole_grid,
 )
-from sphstudy.analysis.claims.tensile_instability import conjecture
 from sphstudy.analysis.results import Results
 from sphstudy.text import number, percent
 
@@ -168,7 +168,7 @@ def _what_breaks_it(results: Results) -> str:
         for stress, how in ((0.3, "with"), (0.0, "without")):
             settings = {"h": 1.7, "scene.K": load, "method.artificial_stress": stress}
             found = [
-                conjecture(results, "mode2", settings, f"stress_{name}_parity_defect_ahead")
+                elsewhere(results, "conjectures", "mode2", settings, f"stress_{name}_parity_defect_ahead")
                 for name in ("xx", "yy")
             ]
             values = [percent(value) for value in found if value is not None]

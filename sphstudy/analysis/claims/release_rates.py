@@ -8,11 +8,11 @@ from sphstudy.analysis.claims.reading import (
     cells,
     choices,
     count,
+    elsewhere,
     everywhere,
     falls,
     finding,
     interval,
-    option,
     options,
     signed,
     span,
@@ -48,7 +48,9 @@ FROZEN = "method.retest_visibility=False"
 def _cause(results: Results, mode: int) -> str:
     """What G1 becomes by other choices, and with the visibility of the first configuration."""
     scene = f"mode{mode}"
-    base, frozen = (option(results, scene, changed, "G1_error") for changed in ("", FROZEN))
+    base, frozen = (
+        elsewhere(results, "choices", scene, {"varied": changed}, "G1_error") for changed in ("", FROZEN)
+    )
     told = (
         "with visibility frozen in the first configuration instead of tested at every step G1 is "
         f"{signed(frozen)} instead of {signed(base)} at (40, 1.5)"

@@ -1,9 +1,7 @@
 """Which side of a bent body a kernel makes unstable, and what the study `conjectures` found about it."""
 
-from typing import Any
-
-from sphstudy.analysis.claims.reading import signed
-from sphstudy.analysis.results import Missing, Results
+from sphstudy.analysis.claims.reading import elsewhere, signed
+from sphstudy.analysis.results import Results
 from sphstudy.numerics.sph.kernel import KERNELS, curvature
 from sphstudy.text import number, percent
 
@@ -29,14 +27,6 @@ def unstable_side(smoothing: float) -> str:
     return f"{place} where h⁴ W'' = {number(bend, 2, sign=True)}, unstable in {side}"
 
 
-def conjecture(results: Results, block: str, settings: dict[str, Any], metric: str) -> float | None:
-    """A metric of one point of the study `conjectures`, None if it is not in the store."""
-    try:
-        return results.other("conjectures").value(metric, settings, block)
-    except Missing:
-        return None
-
-
 def plate_test(
     results: Results, smoothing: float, kernel: str, stress: float, amplitude: float
 ) -> tuple[float, float] | None:
@@ -50,8 +40,10 @@ def plate_test(
         "method.artificial_stress": stress,
         "scene.H0": amplitude,
     }
-    error = conjecture(results, "plate", settings, "frequency_error")
-    rough = conjecture(results, "plate", settings, "stress_roughness_bottom")
+    error, rough = (
+        elsewhere(results, "conjectures", "plate", settings, metric)
+        for metric in ("frequency_error", "stress_roughness_bottom")
+    )
     return None if error is None or rough is None else (error, rough)
 
 

@@ -162,11 +162,13 @@ def _settings(
     inherited = own.pop("defaults", ["_self_"])
     found: dict[str, Any] = {}
     for parent in inherited if isinstance(inherited, list) else [inherited]:
-        if not (isinstance(parent, str) and parent.isidentifier() and parent not in (name, *heirs)):
+        if not isinstance(parent, str) or "/" in parent or parent in (name, *heirs):
             raise ConfigurationError([f"{group}/{path.name}: defaults: {parent} is no name of a {group}"])
         above = own if parent == "_self_" else _settings(group, parent, folders, (name, *heirs))
-        bounds = {**found.get("bounds", {}), **above.get("bounds", {})}
-        found = merged(found, above) | ({"bounds": bounds} if bounds else {})
+        both = [part["bounds"] for part in (found, above) if isinstance(part.get("bounds"), dict)]
+        found = merged(found, above)
+        if len(both) == 2:
+            found["bounds"] = both[0] | both[1]
     # A scene's file speaks of other parts of the configuration too: its own are below `scene`.
     return merged(found, {group: {"name": name}} if group in found else {"name": name})
 
@@ -196,12 +198,11 @@ def read(path: Path) -> dict[str, Any]:
 
 def merged(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
     """Nested settings, those `above` in place of those `below`; only mappings are merged."""
-    both = {k: merged(below[k], v) for k, v in above.items() if _are_mappings(below.get(k), v)}
-    return {**below, **above, **both}
-
-
-def _are_mappings(*values: Any) -> bool:
-    return all(isinstance(value, dict) for value in values)
+    both = below | above
+    for key, inner in below.items():
+        if isinstance(inner, dict) and isinstance(above.get(key), dict):
+            both[key] = merged(inner, above[key])
+    return both
 
 
 def metrics(scene: str) -> tuple[str, ...]:

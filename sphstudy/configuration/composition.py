@@ -168,12 +168,7 @@ class Session:
         return points, results.pop()
 
     def composed(self, arguments: list[str]) -> dict[str, Any]:
-        """What overrides make of the settings, not validated.
-
-        Parameters
-        ----------
-        arguments : list of str
-            Overrides, one value each.
+        """What overrides, of one value each, make of the settings; values are not validated.
 
         Raises
         ------
@@ -184,12 +179,7 @@ class Session:
         return self._composition(choice)
 
     def launcher(self, overrides: list[str]) -> Launcher:
-        """The launcher that overrides choose and configure.
-
-        Parameters
-        ----------
-        overrides : list of str
-            As `launcher_overrides` returns them.
+        """The launcher that overrides (as `launcher_overrides` returns them) choose and configure.
 
         Raises
         ------
@@ -247,20 +237,17 @@ class Session:
         """What the files of a choice of groups say, with the protocol of scene, method and solver."""
         config = self._loader.load_configuration("config", groups, RunMode.RUN)
         names = [str(config.hydra.runtime.choices[group]) for group in _GROUPS]
-        plain = OmegaConf.to_container(
-            OmegaConf.create({key: config[key] for key in config if key != "hydra"}), resolve=True
-        )
-        values: Any = plain
-        for section in SECTIONS:
-            values.pop(section, None)
+        own = OmegaConf.create({k: config[k] for k in config if k != "hydra" and k not in SECTIONS})
+        values: Any = OmegaConf.to_container(own, resolve=True)
         if strange := values.keys() - {*SETTINGS, *(f.name for f in dataclasses.fields(RunConfig))}:
-            own = [*_GROUPS, "n", "h", "seed", "record", *SECTIONS]
-            raise ConfigurationError([unknown(f"section of scene {names[0]}", s, own) for s in strange])
-        values["method"].pop("protocol", None)
-        values = catalogue.merged(values, catalogue.protocol(*names))
+            known = [*_GROUPS, "n", "h", "seed", "record", *SECTIONS]
+            raise ConfigurationError([unknown(f"section of scene {names[0]}", s, known) for s in strange])
         for group, name in zip(_GROUPS, names, strict=True):
-            values[group] = {**values[group], "name": name}
-        return rounded(values)
+            if not isinstance(values.get(group), dict):
+                raise ConfigurationError([f"{group}/{name}.yaml: sets nothing of the {group}"])
+            values[group]["name"] = name
+        values["method"].pop("protocol", None)
+        return rounded(catalogue.merged(values, catalogue.protocol(*names)))
 
 
 def _validated(composed: dict[str, Any]) -> RunConfig:

@@ -24,18 +24,8 @@ _NAMES = ("scene.name", "method.name", "solve.name")
 
 @dataclass(frozen=True)
 class Setting:
-    """An override, ready to be applied.
-
-    Attributes
-    ----------
-    line : str
-        What was written.
-    is_group : bool
-        Whether it chooses a file of a group: `scene=plate`. If not:
-    path, name : tuple of str, str
-        Keys that lead to the dictionary that it changes, and the key in there.
-    value : Any
-        The value there.
+    """An override `line`. If it does not choose a file of a group (`scene=plate`), it sets the key `name`
+    in the dictionary that `path` leads to.
     """
 
     line: str
@@ -46,13 +36,7 @@ class Setting:
 
 
 class Grammar:
-    """Reads overrides.
-
-    Parameters
-    ----------
-    options : callable
-        Names of the files of a group of settings; empty if there is no such group.
-    """
+    """Reads overrides. `options` returns the names in a group of settings: none if there is no group."""
 
     def __init__(self, options: Callable[[str], list[str]]):
         self._parser = OverridesParser.create()
@@ -61,18 +45,8 @@ class Grammar:
         self.setting = cache(self._setting)
 
     def parsed(self, arguments: list[str]) -> list[Override]:
-        """Overrides as Hydra understands them.
-
-        Parameters
-        ----------
-        arguments : list of str
-            `key=value` each.
-
-        Raises
-        ------
-        ConfigurationError
-            With every complaint about the form of an override and about names of groups; values of
-            other settings are not looked at.
+        """Overrides as Hydra understands them. Raises ConfigurationError with every complaint about form
+        and about names in groups; values of other settings are not looked at.
         """
         complaints: list[str] = []
         found: list[Override] = []
@@ -123,13 +97,7 @@ class Grammar:
 
 
 def grid(overrides: list[Override]) -> list[tuple[str, ...]]:
-    """The points that overrides span: for each, one `key=value` an override; the last varies fastest.
-
-    Parameters
-    ----------
-    overrides : list of Override
-        As `Grammar.parsed` returns them.
-    """
+    """The points that overrides span: for each, one `key=value` an override; the last varies fastest."""
 
     def single(override: Override) -> list[str]:
         key, many = override.get_key_element(), override.is_sweep_override()
@@ -140,20 +108,10 @@ def grid(overrides: list[Override]) -> list[tuple[str, ...]]:
 
 
 def applied(settings: Iterable[Setting], values: dict[str, Any]) -> dict[str, Any]:
-    """Nested values with some of them set.
-
-    Parameters
-    ----------
-    settings : iterable of Setting
-        What to set; those of groups are left out.
-    values : dict
-        Nested values. Only what changes is copied, since there may be 20 000 points.
-
-    Raises
-    ------
-    ConfigurationError
-        With every key that `values` does not have.
+    """Nested values with some of them set, groups left out. Raises ConfigurationError with every key that
+    they do not have.
     """
+    # Only what changes is copied: there may be 20 000 points.
     changed = dict(values)
     complaints = []
     for one in settings:
@@ -189,29 +147,15 @@ def launcher_overrides(arguments: list[str]) -> list[str]:
 
 
 def searched(argument: str) -> list[str]:
-    """Folders of the override `hydra.searchpath=[folder, …]`.
-
-    Parameters
-    ----------
-    argument : str
-        The override.
-
-    Raises
-    ------
-    ConfigurationError
-        If it is no list of folders.
-    """
-    complaint = ConfigurationError([f"{_shortened(argument)}: write {SEARCH_PATH}[folder,folder]"])
+    """Folders of `hydra.searchpath=[folder, …]`. Raises ConfigurationError if it is anything else."""
     try:
         value = OverridesParser.create().parse_override(argument).value()
     except (HydraException, ValueError, RecursionError):
-        raise complaint from None
+        value = None
     folders = value if isinstance(value, list) else [value]
-    if not all(isinstance(place, str) and "${" not in place for place in folders):
-        raise complaint
-    places = [str(place).removeprefix("file://") for place in folders]
-    if any(not place or "://" in place for place in places):
-        raise complaint
+    places = [place.removeprefix("file://") for place in folders if isinstance(place, str)]
+    if len(places) < len(folders) or any(not p or "://" in p or "${" in p for p in places):
+        raise ConfigurationError([f"{_shortened(argument)}: write {SEARCH_PATH}[folder,folder]"])
     return places
 
 
@@ -237,6 +181,5 @@ def _values(override: Override) -> int:
     try:
         return sum(1 for _ in itertools.islice(override.sweep_iterator(), MOST_POINTS + 1))
     except (HydraException, ValueError, ArithmeticError):
-        return (
-            0  # range() with a step of zero or with ends that are no numbers, glob() where no names are
-        )
+        # A range() with a step of zero or with ends that are no numbers, a glob() where no names are.
+        return 0

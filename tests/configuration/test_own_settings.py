@@ -76,6 +76,7 @@ def test_a_method_of_the_user_brings_its_protocol(own):
         ("protocol: {thesis: {explicit: {solve: {curant: 1}}}}", "solve.curant=1: there is no such key"),
         ("protocol: {thesis: {explicit: 0.4}}", "protocol.thesis.explicit: should be settings by part"),
         ("protocol: {thesis: 3}", "should be settings by part"),
+        ("scene: 3", "scene/bad.yaml: sets nothing of the scene"),
         ("scene: {periods: long}", "scene.periods=long: should be a valid number"),
     ],
 )

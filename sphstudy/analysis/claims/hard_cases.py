@@ -48,7 +48,7 @@ def _size(value: float) -> str:
 @claim(
     "H1",
     "The total Lagrangian method keeps every scene within its bounds.",
-    "conf/bounds: exact answers, invariants, published values",
+    "bounds in conf/scene: exact answers, invariants, published values",
     reproduced="every run of it with its hourglass energy is done",
     partly="all are finite, some degraded",
     otherwise="one diverges or fails",

@@ -41,6 +41,7 @@ def test_a_scene_without_bounds_or_a_file_has_the_general_ones():
     [
         ("bounds: {}\n", "source: "),
         ("source: s\n", "bounds: "),
+        ("source: s\nbounds: 3\n", "bounds: "),
         (
             "source: s\nbounds: {}\nquoted: [{quantity: a, units: s, between: [1], source: b}]\n",
             "quoted.0.between",

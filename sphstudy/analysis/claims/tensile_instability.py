@@ -50,17 +50,19 @@ def plate_test(
 def kernel_test(results: Results, smoothing: float) -> str:
     """In words: the plate of 15 rows at this h̃ with other kernels, and with hardly any stress.
 
-    Empty if the study `conjectures` has no such points in the store.
+    Empty if the study `conjectures` lacks these points.
     """
     cases = [(_kernel_words(kernel, smoothing), kernel, FULL) for kernel in KERNELS]
     cases.append(("cubic kernel at a thousandth of the amplitude", "cubic", THOUSANDTH))
-    told = [
+    numbers = [
         f"{words} {signed(found[0])}, {percent(found[1])}"
         for words, kernel, amplitude in cases
         if (found := plate_test(results, smoothing, kernel, 0.0, amplitude))
     ]
     return (
-        f"ω error and roughness below the axis at (15, {smoothing:g}): {'; '.join(told)}" if told else ""
+        f"ω error and roughness below the axis at (15, {smoothing:g}): {'; '.join(numbers)}"
+        if numbers
+        else ""
     )
 
 

@@ -1,6 +1,6 @@
 """Building blocks of validated parameters: frozen dataclasses whose fields carry range and meaning.
 
-Values live in `conf/`; here stand types, ranges, units and meanings, which `sphstudy describe` prints.
+Values are in `conf/`; classes declare types, ranges, units and meanings: `sphstudy describe` prints all.
 """
 
 import dataclasses
@@ -15,17 +15,25 @@ _STRICT = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
 def number(meaning: str, unit: str = "1", **limits: float) -> Any:
-    """A float with meaning, unit and limits (gt, ge, lt, le)."""
+    """A field that takes a real number.
+
+    Parameters
+    ----------
+    meaning, unit : str
+        For `sphstudy describe`; "1" is the unit of a pure number.
+    **limits : float
+        What the number is above (`gt`, `ge`) and below (`lt`, `le`).
+    """
     return Field(description=f"{meaning} [{unit}]", **limits)  # type: ignore[call-overload]
 
 
 def count(meaning: str, **limits: int) -> Any:
-    """A whole number with meaning and limits."""
+    """A field that takes a whole number; parameters as those of `number`."""
     return Field(description=meaning, strict=True, **limits)  # type: ignore[call-overload]
 
 
 def described(meaning: str) -> Any:
-    """Anything else with a meaning: text, choices (Literal), switches, lists."""
+    """A field that takes anything else: text, choices (Literal), switches, lists."""
     return Field(description=meaning)
 
 
@@ -39,12 +47,29 @@ def parameters(cls: type[T]) -> type[T]:
 
 @cache
 def adapter(cls: Any) -> TypeAdapter:
-    """What checks values against a class of parameters, made once."""
+    """Pydantic's adapter of a class of parameters, made once."""
     return TypeAdapter(cls)
 
 
 def checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
-    """The values as an instance of a class of parameters; None, and complaints added, if they are not."""
+    """Values as an instance of a class of parameters.
+
+    Parameters
+    ----------
+    cls : type
+        The class.
+    values : Any
+        A mapping of values by name.
+    prefix : str
+        What stands before the names in complaints: "scene.".
+    complaints : list of str
+        Every complaint is added here.
+
+    Returns
+    -------
+    Any
+        The instance; None if there is a complaint.
+    """
     try:
         return adapter(cls).validate_python(values)
     except ValidationError as error:

@@ -12,6 +12,7 @@ rows come first. Exit status 1: a value is missing, or outside its interval.
     sphstudy compare a.nc b.nc --tolerance 1e-9
 """
 
+import math
 from collections import Counter
 
 from sphstudy.analysis import compare
@@ -23,6 +24,7 @@ from sphstudy.console import print_table
 from sphstudy.errors import ConfigurationError
 from sphstudy.store.netcdf import read_dataset
 from sphstudy.table import Column, Table
+from sphstudy.text import NOTHING
 
 SHOWN = 20
 """Rows of a comparison that are printed unless all are asked for."""
@@ -74,7 +76,8 @@ def print_comparison(rows: list[Comparison], limit: int | None) -> Counter[str]:
     headings = ("metric", "cell", "value", "accepted", "unit", "verdict", "reason")
     texts = []
     for row in rows[:limit]:
-        numbers = f"{row.value:.6g}", f"{row.lower:.6g} … {row.upper:.6g}"
+        value = NOTHING if math.isnan(row.value) else f"{row.value:.6g}"
+        numbers = value, f"{row.lower:.6g} … {row.upper:.6g}"
         texts.append([row.metric, row.cell, *numbers, row.units, row.verdict, row.reason])
     print_table(Table.of_texts([Column(text, numeric=text == "value") for text in headings], texts))
     counts = Counter(row.verdict for row in rows)

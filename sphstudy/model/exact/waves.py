@@ -60,7 +60,8 @@ def stopped_chain(index: np.ndarray, phase: float) -> np.ndarray:
     It is the bar of `stopped_bar` as the plainest lattice has it, without dissipation. Mass number 0 is
     stopped; index [N] ≥ 0: numbers of masses; phase = c time/spacing. Schrödinger's Bessel functions
     (1914) of the odd continuation sum up to -(J_0 + 2 Σ_{0<k<n} J_2k + J_2n)(2 phase).
-    The front widens as ∛phase, and behind it the velocity overshoots by what the integral of Airy's function does, 0.274.
+    The front widens as ∛phase, and
+    behind it the velocity overshoots by what the integral of Airy's function does, 0.274.
     """
     terms = special.jv(2 * np.arange(int(index.max()) + 1), 2.0 * phase)
     sums = 2.0 * np.cumsum(terms) - terms[0]

@@ -83,8 +83,8 @@ def report(count: int, folder: str) -> None:
         study = {"title": "Very many points", "blocks": {"grid": block}}
         (Path(scratch) / "many.yaml").write_text(yaml.safe_dump(study))
         program = (
-            "import sys; from pathlib import Path; from sphstudy import __main__, study;"
-            f"study.folder = lambda: Path({scratch!r});"
+            "import sys; from pathlib import Path; from sphstudy import __main__, catalogue;"
+            f"catalogue.FOLDERS['studies'] = Path({scratch!r});"
             "sys.exit(__main__.main(sys.argv[1:]))"
         )
         timed("report", "report", "many", f"results={folder}", program=["-c", program])

@@ -37,7 +37,7 @@ def run(request: Request) -> int:
 
 
 def about(group: str, name: str) -> str:
-    """The first line about a scene, method or solver.
+    """A line about a scene, method or solver: the title in its file, or the first line of its module.
 
     Parameters
     ----------
@@ -53,6 +53,8 @@ def about(group: str, name: str) -> str:
     """
     key, place = PLACES[group]
     settings = catalogue.settings(group, name)
+    if title := settings.get("title"):
+        return str(title)
     return _about(_PACKAGE / place / f"{settings.get(group, settings)[key]}.py")
 
 

@@ -12,7 +12,7 @@
     choices: [choices]          # studies of open choices that say how wide intervals of a reference are
     unstable:                   # cells whose numbers nothing may be judged by
       - {where: {h: 1.3, n: [15, 21]}, reason: why}
-    judged: true                # runs are judged by conf/bounds: the page has a stability map
+    judged: true                # runs are judged by bounds of scenes: the page has a stability map
     skip_invalid: true          # leave out cells that are not valid instead of refusing the study
     forbid_diverged: true       # a diverged point makes the exit status 1
 

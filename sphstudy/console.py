@@ -6,6 +6,9 @@ from rich.table import Table as Grid
 
 from sphstudy.table import Table
 
+LONGEST = 400
+"""Rows of a list of runs that are printed; of more, only those that are not done."""
+
 
 def console() -> Console:
     """The terminal, or something wide enough for any table. Text in brackets is text, not markup."""

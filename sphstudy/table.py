@@ -28,3 +28,18 @@ class Table:
     caption: str
     columns: list[Column]
     rows: list[list[Cell]]
+
+    @classmethod
+    def of_texts(cls, columns: list[Column], rows: list[list[str]], caption: str = "") -> "Table":
+        """A table of plain texts.
+
+        Parameters
+        ----------
+        columns : list of Column
+            Headings.
+        rows : list of list of str
+            What stands in the cells.
+        caption : str
+            The title.
+        """
+        return cls(caption, columns, [[Cell(text) for text in row] for row in rows])

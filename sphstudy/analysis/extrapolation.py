@@ -126,6 +126,17 @@ def extrapolated(dataset: xr.Dataset, metric: str, order: float | None = None) -
     )
 
 
+def extrapolated_together(
+    dataset: xr.Dataset, metrics: list[str], order: float | None = None
+) -> xr.Dataset:
+    """Several metrics, each as `extrapolated` gives it, in one dataset."""
+    result = xr.Dataset()
+    for metric in metrics:
+        one = extrapolated(dataset, metric, order)
+        result = result.assign(one.data_vars).assign_attrs(one.attrs)
+    return result
+
+
 def _with_dimensions(dataset: xr.Dataset) -> xr.Dataset:
     """The dataset with what has been selected (h=1.5) as a dimension again."""
     return dataset.expand_dims([key for key, c in dataset.coords.items() if c.ndim == 0])

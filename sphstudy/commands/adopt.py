@@ -1,21 +1,22 @@
-"""`sphstudy adopt [results=FOLDER]`: stored runs of an earlier version get today's names."""
+"""Stored runs of an earlier version serve again.
 
+    sphstudy adopt [options]
+
+Gives today's names to records of an earlier version whose numbers are known to
+be today's, and lists those that stay as they are.
+"""
+
+from sphstudy.commands.parser import Request
 from sphstudy.errors import ConfigurationError
 from sphstudy.store.adoption import adopt
 from sphstudy.store.store import Store
 
 
-def adopt_command(arguments: list[str]) -> int:
-    """Moves the records whose numbers are known to be today's, and lists those that stay as they are."""
-    folder = "results"
-    for argument in arguments:
-        key, _, value = argument.partition("=")
-        if key != "results" or not value:
-            raise ConfigurationError([f"{argument}: adopt takes results=FOLDER only"])
-        folder = value
-    store = Store(folder)
+def run(request: Request) -> int:
+    """Moves records, and lists those that are left."""
+    store = Store(request.results)
     if not store.runs.is_dir():
-        raise ConfigurationError([f"results={folder}: there are no runs"])
+        raise ConfigurationError([f"results={request.results}: there are no runs"])
     store.prepare()
     found = adopt(store)
     for name, reason in found.left.items():

@@ -1,37 +1,28 @@
-"""`sphstudy judge STUDY`: the stability map of stored results, on the console."""
+"""Which stored runs are sound, and when others went bad.
 
-from rich.box import SIMPLE_HEAD
-from rich.table import Table as Printed
+    sphstudy judge STUDY [key=value ...] [options]
+
+Prints which stored runs keep within their bounds, and when and by which bound
+others went bad. Settings (key=value) replace what the study's file says.
+
+    sphstudy judge stability                   every method on every hard case
+"""
 
 from sphstudy.analysis.results import load
 from sphstudy.analysis.stability.cases import judged
-from sphstudy.commands.review import named
+from sphstudy.commands.parser import Request
 from sphstudy.configuration.composition import session
-from sphstudy.console import console
+from sphstudy.console import print_table
 from sphstudy.report.stability_tables import bounds, counts, quoted, stability_map
-from sphstudy.table import Table
 
 
-def judge_command(arguments: list[str]) -> int:
-    """Prints which runs of a study are sound, degraded or diverged, when and by what, and the bounds.
-
-    Raises ConfigurationError on wrong input, wrong files of bounds among it.
-    """
-    name, overrides = named(arguments, "judge")
-    with session() as hydra:
-        results = load(name, hydra, overrides)
+def run(request: Request) -> int:
+    """Prints which runs are sound, degraded or diverged, when and by what, and the bounds."""
+    with session(request.config_dir) as hydra:
+        results = load(request.words[0], hydra, list(request.settings))
         cases = judged(results)
     for table in (stability_map(cases), bounds(cases), quoted(results, cases)):
         if table is not None:
-            _print(table)
+            print_table(table)
     print(f"judged: {counts(cases)}")
     return 0
-
-
-def _print(table: Table) -> None:
-    printed = Printed(title=table.caption, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
-    for column in table.columns:
-        printed.add_column(column.title, justify="right" if column.numeric else "left", overflow="fold")
-    for row in table.rows:
-        printed.add_row(*(cell.text for cell in row))
-    console().print(printed)

@@ -1,4 +1,14 @@
-"""`sphstudy peers [--dry-run] [peers=pysph,lammps] [n=9,15] [repeats=3] [results=FOLDER]`."""
+"""Other codes on the plate, set up and run side by side.
+
+    sphstudy peers [--peers NAME,...] [--n N,...] [options]
+
+Sets up PySPH, LAMMPS and scikit-fem, each in an environment of its own in
+results/peers, and runs all on the same plate. Exit status 1: a peer could not
+be set up, or a run failed.
+
+    sphstudy peers --dry-run                   what would be set up and run
+    sphstudy peers --peers pysph --n 9,15      only one
+"""
 
 from pathlib import Path
 from typing import Any
@@ -10,23 +20,21 @@ from sphstudy.benchmarks.peers.environment import SetupFailed, ensure, is_comple
 from sphstudy.benchmarks.peers.launch import Outcome, launch
 from sphstudy.benchmarks.peers.measure import Case
 from sphstudy.benchmarks.peers.plate import plate
-from sphstudy.errors import ConfigurationError
+from sphstudy.commands.parser import Request
+from sphstudy.errors import ConfigurationError, unknown
 from sphstudy.store.netcdf import write
 
-_OPTIONS = ("peers", "n", "repeats", "results")
 
-
-def peers_command(arguments: list[str]) -> int:
-    """Sets up, measures, prints, stores. Returns 1 if a peer could not be set up or a run failed."""
-    dry = "--dry-run" in arguments
-    options = _options([a for a in arguments if a != "--dry-run"])
+def run(request: Request) -> int:
+    """Sets up, measures, prints, stores; 1 if a peer could not be set up or a run failed."""
+    options = request.options
     names, sizes = _names(options.get("peers")), _numbers("n", options.get("n", "9,15"))
     (repeats,) = _numbers("repeats", options.get("repeats", "3"))[:1]
-    folder = Path(options.get("results", "results")) / "peers"
+    folder = Path(request.results) / "peers"
     codes = [code for code in CODES if code.peer in (*names, THIS)]
     plates = [plate(n) for n in sorted(set(sizes))]
-    if dry:
-        _tell(names, codes, sizes, folder)
+    if request.has("dry-run"):
+        _print_plan(names, codes, sizes, folder)
         return 0
     missing = _set_up(names, folder)
 
@@ -75,18 +83,11 @@ def peers_command(arguments: list[str]) -> int:
     return int(any(case.status not in ("done", "diverged") for case in every))
 
 
-def _options(arguments: list[str]) -> dict[str, str]:
-    wrong = [a for a in arguments if a.partition("=")[0] not in _OPTIONS or "=" not in a]
-    if wrong:
-        raise ConfigurationError([f"{a}: peers takes {', '.join(_OPTIONS)} and --dry-run" for a in wrong])
-    return dict(a.split("=", 1) for a in arguments)
-
-
 def _names(given: str | None) -> list[str]:
     names = list(PEERS) if given is None else [name for name in given.split(",") if name]
     wrong = [name for name in names if name not in PEERS]
     if wrong:
-        raise ConfigurationError([f"peers={name}: there are {', '.join(PEERS)}" for name in wrong])
+        raise ConfigurationError([unknown("peer", name, PEERS) for name in wrong])
     return names
 
 
@@ -98,7 +99,7 @@ def _numbers(key: str, given: str) -> list[int]:
 
 
 def _set_up(names: list[str], folder: Path) -> dict[str, str]:
-    """Makes what is not there; returns why for each peer that could not be made."""
+    """Makes environments that are not there; for each peer that could not be set up, why."""
     missing = {}
     for name in names:
         try:
@@ -110,7 +111,7 @@ def _set_up(names: list[str], folder: Path) -> dict[str, str]:
     return missing
 
 
-def _tell(names: list[str], codes: list[Code], sizes: list[int], folder: Path) -> None:
+def _print_plan(names: list[str], codes: list[Code], sizes: list[int], folder: Path) -> None:
     for name in names:
         state = "is there" if is_complete(PEERS[name], folder / name) else "would be made"
         print(f"{name}: {folder / name} {state}")

@@ -1,132 +1,35 @@
-"""What in a folder of results serves nobody any more, why, and how much space it takes."""
+"""Stale records and their space; --yes removes them.
 
-import json
-import shutil
-import time
-from collections.abc import Iterator
-from dataclasses import dataclass
-from pathlib import Path
+    sphstudy prune [--yes] [options]
 
-from rich.box import SIMPLE_HEAD
-from rich.table import Table
+Lists files in results/runs that serve nobody any more, why, and their size.
 
-from sphstudy.configuration.run_settings import validate
-from sphstudy.console import console
+    sphstudy prune                             only lists
+    sphstudy prune --yes                       removes what it lists
+"""
+
+from sphstudy.commands.parser import Request
+from sphstudy.console import print_table
 from sphstudy.errors import ConfigurationError
-from sphstudy.store import identity
-from sphstudy.store.adoption import adoptable
-from sphstudy.store.atomic import UNFINISHED
-from sphstudy.store.lock import is_alive
-from sphstudy.store.store import CHECKPOINT, CLAIM, Store, read_summary
-
-FORGOTTEN = 30 * 24 * 3600.0
-"""Age of a checkpoint (s) from which on nobody is expected to go on from it."""
-
-RULES = """\
-A record is stale when no run would be looked for under its name again:
-- the code of its scene, method or solver has changed, or of anything that they import from the program
-  (docstrings and comments apart): its numerics version is not today's;
-- its configuration is not valid any more: a key was added, renamed or removed.
-A change of metrics does not make it stale: they are measured again from its fields. Beside records: files
-set aside as unreadable, claims whose process is gone, logs without a record, unfinished writes, and
-checkpoints a month old. Records that failed or timed out are kept: retry= says when they are tried
-again."""
+from sphstudy.store.stale import RULES, remove, stale
+from sphstudy.store.store import Store
+from sphstudy.table import Column, Table
 
 
-@dataclass(frozen=True)
-class Stale:
-    """A file that could go: why, and its size (bytes)."""
-
-    path: Path
-    reason: str
-    size: int
-
-
-def prune_command(arguments: list[str]) -> int:
-    """`sphstudy prune [results=FOLDER] [--yes]`: lists what is stale; removes it with --yes."""
-    folder, yes = "results", "--yes" in arguments
-    for argument in arguments:
-        if argument == "--yes":
-            continue
-        key, _, value = argument.partition("=")
-        if key != "results" or not value:
-            raise ConfigurationError([f"{argument}: prune takes results=FOLDER and --yes"])
-        folder = value
-    store = Store(folder)
+def run(request: Request) -> int:
+    """Lists what is stale; removes it with --yes."""
+    store = Store(request.results)
     if not store.runs.is_dir():
-        raise ConfigurationError([f"results={folder}: there are no runs"])
+        raise ConfigurationError([f"results={request.results}: there are no runs"])
     found = list(stale(store))
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading in ("file", "because", "MB"):
-        table.add_column(heading, overflow="fold")
-    for one in found:
-        table.add_row(one.path.name, one.reason, f"{one.size / 1e6:.2f}")
-    if found:
-        console().print(table)
+    columns = [Column("file", numeric=False), Column("because", numeric=False), Column("MB")]
+    print_table(Table.of_texts(columns, [[o.path.name, o.reason, f"{o.size / 1e6:.2f}"] for o in found]))
     total = f"{len(found)} files, {sum(one.size for one in found) / 1e6:.1f} MB"
-    if yes:
+    if request.has("yes"):
         for one in found:
-            _remove(one.path)
+            remove(one.path)
         print(f"removed: {total}")
     else:
         print(f"stale: {total}" + (" (--yes removes them)" if found else ""))
         print(RULES)
     return 0
-
-
-def stale(store: Store) -> Iterator[Stale]:
-    """Every file in the folder of runs that could go."""
-    stems = set()
-    for path in sorted(store.runs.glob("*.nc")):
-        if path.name.startswith("."):
-            continue
-        reason = _why(store, path)
-        if reason:
-            yield Stale(path, reason, path.stat().st_size)
-        else:
-            stems.add(path.stem)
-    alive = {path.name.removesuffix(CLAIM) for path in store.runs.glob(f"*{CLAIM}") if is_alive(path)}
-    for suffix, reason in (
-        (CLAIM, "a claim whose process is gone"),
-        (".log", "a log of a run without a record"),
-    ):
-        for path in sorted(store.runs.glob(f"*{suffix}")):
-            stem = path.name.removesuffix(suffix)
-            if stem not in alive and stem not in stems:
-                yield Stale(path, reason, path.stat().st_size)
-    # Whoever was interrupted, failed or timed out goes on from it: only age says that nobody will.
-    for path in sorted(store.runs.glob(f"*{CHECKPOINT}")):
-        found = path.stat()
-        if path.stem not in alive and time.time() - found.st_mtime > FORGOTTEN:
-            yield Stale(path, "a checkpoint that nobody went on from for a month", found.st_size)
-    for path in sorted(store.runs.glob("*.unreadable")):
-        yield Stale(path, "no record: set aside when it was looked for", path.lstat().st_size)
-    for path in sorted(store.runs.glob(".index.sqlite*")):
-        yield Stale(path, "an index that earlier versions kept", path.stat().st_size)
-    if not alive:
-        for path in sorted(store.runs.glob(f"{UNFINISHED}*")):
-            yield Stale(path, "a write that was not finished", path.stat().st_size)
-
-
-def _remove(path: Path) -> None:
-    """A file, or a folder that lay where a record should."""
-    if path.is_dir() and not path.is_symlink():
-        shutil.rmtree(path)
-    else:
-        path.unlink(missing_ok=True)
-
-
-def _why(store: Store, path: Path) -> str:
-    """Why a record is stale; "" if it is not."""
-    summary = read_summary(path)
-    if summary is None or adoptable(summary.attributes):
-        return ""  # set aside just now, and listed as such; or `sphstudy adopt` makes use of it
-    try:
-        config = validate(json.loads(summary.attributes["configuration"]))
-    except ConfigurationError as error:
-        return f"not valid any more: {error.complaints[0]}"
-    except (KeyError, ValueError, TypeError):
-        return "not valid any more"
-    if summary.attributes["numerics_version"] != identity.numerics_version(config):
-        return "changed numerics: the code of scene, method or solver"
-    return "" if store.record_path(config) == path else "another name today"

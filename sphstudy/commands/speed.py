@@ -1,23 +1,33 @@
-"""`sphstudy study speed [quick=true] [parts=forms,terms] [rounds=5] [results=FOLDER] [--dry-run]`."""
+"""What pairs, terms, a start and a second core cost here.
+
+    sphstudy speed [--quick] [--parts PART,...] [options]
+
+Measures the program on this machine, always anew, and writes
+results/speed/speed.nc with figures beside it. `sphstudy study speed` is the
+same command.
+
+    sphstudy speed --quick                     a minute of CPU time
+    sphstudy speed --parts forms,terms         only these parts
+    sphstudy speed --dry-run                   parts, and what they took last
+"""
 
 import sys
 from pathlib import Path
 
-import xarray as xr
-
-from sphstudy.benchmarks.speed.settings import PARTS, Settings, parsed
+from sphstudy.benchmarks.speed.settings import PARTS, Settings, chosen
+from sphstudy.commands.parser import Request
 from sphstudy.errors import ConfigurationError
 
 
-def speed_command(overrides: list[str], dry_run: bool) -> int:
-    """Measures, writes <results>/speed/speed.nc and figures beside it, and prints tables; always anew.
+def run(request: Request) -> int:
+    """Measures, writes <results>/speed/speed.nc and figures beside it, prints tables; always anew.
 
-    With `dry_run` only says what it would measure, and what that took the last time. Returns the exit
-    status: 0, or 1 if a system went bad before it was timed. Raises ConfigurationError on wrong input.
+    With --dry-run only tells what would be measured, and what that took the last time. Returns 1 if a
+    system went bad before it was timed.
     """
-    settings = parsed(overrides)
+    settings = chosen(request.options)
     path = Path(settings.results) / "speed" / "speed.nc"
-    if dry_run:
+    if request.has("dry-run"):
         _print_plan(settings, path)
         return 0
     # Loaded only now: wrong input is answered at once.
@@ -54,9 +64,9 @@ def _before(path: Path) -> dict[str, str]:
 
     if not path.is_file():
         return {}
-    found: xr.Dataset = read_dataset(str(path), path.parent)
+    found = read_dataset(str(path), path.parent)
     if "part" not in found.dims:
-        raise ConfigurationError([f"{path}: not a dataset of study speed"])
+        raise ConfigurationError([f"{path}: was not written by `sphstudy speed`"])
     quick = " (quick)" if found.attrs["quick"] == "True" else ""
     return {
         str(part): f"; {seconds:.0f} s of CPU time the last time{quick}"

@@ -1,4 +1,14 @@
-"""What a folder of results holds, or how far a study is: run by run, with progress and time left."""
+"""What the results folder holds, or how far a study is.
+
+    sphstudy status [options]
+    sphstudy status STUDY [key=value ...] [options]
+
+Lists runs with outcome, CPU time and progress. Of a study also: how many
+points are done, how fast they come, and what is left.
+
+    sphstudy status                            every run in results
+    sphstudy status mode1                      the points of a study
+"""
 
 import time
 from collections import Counter
@@ -6,23 +16,21 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from rich.box import SIMPLE_HEAD
-from rich.table import Table
-
-from sphstudy.commands.points_table import LONGEST
+from sphstudy.commands.parser import Request
 from sphstudy.configuration.composition import session
 from sphstudy.configuration.study_points import all_points
-from sphstudy.console import console
+from sphstudy.console import LONGEST, print_table
 from sphstudy.errors import ConfigurationError
 from sphstudy.running.plan import plan
-from sphstudy.running.progress import duration
 from sphstudy.store.lock import Holder, holder, is_alive
 from sphstudy.store.store import CHECKPOINT, CLAIM, Store, read_summary
+from sphstudy.table import Column, Table
+from sphstudy.text import duration
 
 
 @dataclass(frozen=True)
 class Line:
-    """A run: its name, outcome, CPU time (s; NaN if unknown) and what there is to say."""
+    """A run: its name, outcome, CPU time (s; NaN if unknown) and a remark."""
 
     name: str
     outcome: str
@@ -30,23 +38,30 @@ class Line:
     note: str
 
 
-def status_command(arguments: list[str]) -> int:
-    """`sphstudy status [STUDY] [results=FOLDER] [key=value …]`: runs with outcomes, and counts."""
-    if arguments and "=" not in arguments[0]:
-        lines, left = _of_study(arguments[0], arguments[1:])
+def run(request: Request) -> int:
+    """Lists runs with outcomes and counts; of a study also how fast its points come, and what is left."""
+    if request.words:
+        lines, left = _of_study(request)
+    elif wrong := [one for one in request.settings if not one.startswith("results=")]:
+        raise ConfigurationError([f"{one}: status takes settings with a study only" for one in wrong])
     else:
-        lines, left = _of_folder(arguments), ""
+        lines, left = _of_folder(request.results), ""
     shown = lines if len(lines) <= LONGEST else [line for line in lines if line.outcome != "done"]
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading in ("run", "outcome", "CPU (s)", "note"):
-        table.add_column(heading, overflow="fold")
-    for line in shown[:LONGEST]:
-        seconds = "" if line.seconds != line.seconds else f"{line.seconds:.1f}"
-        table.add_row(line.name, line.outcome, seconds, line.note)
-    if shown:
-        console().print(table)
-    if len(shown) < len(lines) or len(shown) > LONGEST:
-        print(f"{len(lines) - min(len(shown), LONGEST)} more runs are not listed")
+    columns = [
+        Column(heading, numeric="(" in heading) for heading in ("run", "outcome", "CPU (s)", "note")
+    ]
+    rows = [
+        [
+            line.name,
+            line.outcome,
+            "" if line.seconds != line.seconds else f"{line.seconds:.1f}",
+            line.note,
+        ]
+        for line in shown[:LONGEST]
+    ]
+    print_table(Table.of_texts(columns, rows))
+    if len(rows) < len(lines):
+        print(f"{len(lines) - len(rows)} more runs are not listed")
     counts = Counter(line.outcome for line in lines)
     print(", ".join(f"{count} {name}" for name, count in counts.items()) or "no runs")
     if left:
@@ -54,20 +69,14 @@ def status_command(arguments: list[str]) -> int:
     return 0
 
 
-def _of_folder(arguments: list[str]) -> list[Line]:
-    folder = "results"
-    for argument in arguments:
-        key, _, value = argument.partition("=")
-        if key != "results" or not value:
-            raise ConfigurationError([f"{argument}: status takes a study, and results=FOLDER"])
-        folder = value
+def _of_folder(folder: str) -> list[Line]:
     store = Store(folder)
     if not store.runs.is_dir():
         raise ConfigurationError([f"results={folder}: there are no runs"])
     stems = {path.stem for path in store.runs.glob("*.nc") if not path.name.startswith(".")}
     claimed = {path.name.removesuffix(CLAIM) for path in store.runs.glob(f"*{CLAIM}")}
     kept = {path.stem for path in store.runs.glob(f"*{CHECKPOINT}")}
-    # What is set aside while it is looked at is listed below.
+    # Files that are set aside while they are read here are listed below.
     lines = [
         line
         for stem in sorted(stems | claimed | kept)
@@ -81,7 +90,7 @@ def _of_folder(arguments: list[str]) -> list[Line]:
 
 
 def _line(store: Store, stem: Path, claimed: bool, kept: bool) -> Line | None:
-    """A run with a claim, a checkpoint, or a record; None if it has none of them that can be read."""
+    """A run with a claim, a checkpoint or a record; None if none of these can be read."""
     claim = stem.with_name(stem.name + CLAIM)
     alive = claimed and is_alive(claim)
     if not alive and (summary := read_summary(stem.with_name(stem.name + ".nc"))):
@@ -89,12 +98,12 @@ def _line(store: Store, stem: Path, claimed: bool, kept: bool) -> Line | None:
         seconds = summary.numbers.get("cpu_seconds", float("nan"))
         return Line(stem.name, summary.status, seconds, summary.attributes["message"])
     if alive or claimed or kept:
-        told = _told(holder(claim), alive) if claimed else "it goes on from its checkpoint"
+        told = _whereabouts(holder(claim), alive) if claimed else "it goes on from its checkpoint"
         return Line(stem.name, "running" if alive else "interrupted", float("nan"), told)
     return None
 
 
-def _told(note: Holder | None, alive: bool) -> str:
+def _whereabouts(note: Holder | None, alive: bool) -> str:
     """Where a run is computed, since when, and how far it is."""
     if note is None:
         return "its claim cannot be read"
@@ -103,10 +112,10 @@ def _told(note: Holder | None, alive: bool) -> str:
     return (f"step {note.step:,} of {note.steps:,}, " if note.steps else "") + where
 
 
-def _of_study(name: str, overrides: list[str]) -> tuple[list[Line], str]:
+def _of_study(request: Request) -> tuple[list[Line], str]:
     """The points of a study; how many are done, how fast, and how long the rest will take."""
-    with session() as hydra:
-        points, folder, _ = all_points(hydra, name, overrides)
+    with session(request.config_dir) as hydra:
+        points, folder, _ = all_points(hydra, request.words[0], list(request.settings))
         store = Store(folder)
         planned = plan(points, store)
         lines = [_of_point(store, p.point.config, p.status) for p in planned]
@@ -134,7 +143,7 @@ def _pace(store: Store, planned) -> Iterator[str]:
     left = [p for p in planned if p not in there]
     seconds = sum(p.seconds * (1.0 - _share_done(store, p.point.config)) for p in left)
     if left:
-        yield f"{len(left)} left, about {duration(seconds)} of CPU time"
+        yield f"{len(left)} left, about {duration(seconds, 2)} of CPU time"
 
 
 def _share_done(store: Store, config) -> float:

@@ -7,12 +7,12 @@
         {scene: mode1, h: 1.5, n: 40, vary: {scene.frame_layers: [1, 4], method.visibility: exclusive}}
     include: [plate]            # studies that belong to this one: run, compared and shown with it
     shows: [choices]            # studies shown with it as far as their points are stored, never run by it
-    figures: [crack.release_rates]     # module.function of sphstudy/report/figures
-    claims: [C1, C2]            # of sphstudy/claims
+    figures: [crack.release_rates]     # module.function of report/figures
+    claims: [C1, C2]            # of analysis/claims
     choices: [choices]          # studies of open choices that say how wide intervals of a reference are
     unstable:                   # cells whose numbers nothing may be judged by
       - {where: {h: 1.3, n: [15, 21]}, reason: why}
-    judged: true                # runs are judged by conf/bounds: the page has a stability map
+    judged: true                # runs are judged by bounds of scenes: the page has a stability map
     skip_invalid: true          # leave out cells that are not valid instead of refusing the study
     forbid_diverged: true       # a diverged point makes the exit status 1
 
@@ -20,24 +20,31 @@ All but the title are optional. To give a setting that is itself a list, write i
 """
 
 import itertools
+import re
 from typing import Any
 
 import yaml
 from pydantic import TypeAdapter, ValidationError
 
 from sphstudy import catalogue
-from sphstudy.errors import ConfigurationError
+from sphstudy.configuration.execution import SETTINGS
+from sphstudy.errors import ConfigurationError, unknown
 from sphstudy.parameters import described, parameters
-
-SPEED = ("speed", "What pairs, terms, a start and a second core cost on this machine")
-"""Name and title of the study that has no file: it measures, and runs no points (sphstudy/speed)."""
 
 Setting = int | float | str | bool | None
 Values = Setting | list[Setting]
 
 
 def holds(where: dict[str, Values], flat: dict[str, Any]) -> bool:
-    """Whether a flat configuration has these settings; a list: any of its values."""
+    """Whether a run has certain settings.
+
+    Parameters
+    ----------
+    where : dict
+        Settings by dotted key; a list stands for any of its values.
+    flat : dict
+        The configuration of the run, with dotted keys.
+    """
     return all(
         flat.get(key) in (value if isinstance(value, list) else [value]) for key, value in where.items()
     )
@@ -45,13 +52,13 @@ def holds(where: dict[str, Values], flat: dict[str, Any]) -> bool:
 
 @parameters
 class Unstable:
-    """Cells that sit in an instability: their numbers react to anything, rounding included."""
+    """Cells in an instability, where rounding alone changes the numbers."""
 
     where: dict[str, Values] = described("settings of the cells; a list: any of these")
     reason: str = described("why nothing is judged there")
 
     def holds(self, flat: dict[str, Any]) -> bool:
-        """Whether a point with these settings (flat configuration) is one of the cells."""
+        """Whether a run with this configuration (dotted keys) is one of the cells."""
         return holds(self.where, flat)
 
 
@@ -91,11 +98,25 @@ def names() -> list[str]:
     return sorted(path.stem for path in catalogue.folder("studies").glob("*.yaml"))
 
 
+def results_name(name: str, overrides: list[str]) -> str:
+    """The name of a study's dataset and of its report.
+
+    Parameters
+    ----------
+    name : str
+        The study.
+    overrides : list of str
+        What replaces settings of its file; those that make other runs become part of the name.
+    """
+    changed = [o for o in overrides if o.partition("=")[0] not in SETTINGS]
+    return re.sub(r"[^\w.+=-]+", "_", "-".join([name, *changed]))
+
+
 def load(name: str) -> Study:
     """The study of that name. Raises ConfigurationError if there is none or its file is wrong."""
     if name not in names():
-        own = f"and {SPEED[0]}, by `sphstudy study {SPEED[0]}` only"
-        raise ConfigurationError([f"study {name}: there is {', '.join(names())}, {own}"])
+        hint = "; `sphstudy speed` measures this machine" if name == "speed" else ""
+        raise ConfigurationError([unknown("study", name, names()) + hint])
     path = catalogue.folder("studies") / f"{name}.yaml"
     try:
         values = yaml.safe_load(path.read_text(encoding="utf-8"))
@@ -113,7 +134,20 @@ def load(name: str) -> Study:
 
 
 def members(name: str, above: tuple[str, ...] = ()) -> list[str]:
-    """The study and all that it includes, itself last. Raises ConfigurationError on a circle."""
+    """The study and all that it includes, itself last.
+
+    Parameters
+    ----------
+    name : str
+        The study.
+    above : tuple of str
+        Studies that include it; among them it would include itself.
+
+    Raises
+    ------
+    ConfigurationError
+        If a study includes itself, does not exist, or has a wrong file.
+    """
     if name in above:
         raise ConfigurationError([f"study {name}: includes itself ({' > '.join((*above, name))})"])
     inner = [member for part in load(name).include for member in members(part, (*above, name))]
@@ -121,10 +155,25 @@ def members(name: str, above: tuple[str, ...] = ()) -> list[str]:
 
 
 def grids(study: Study, overrides: list[str]) -> dict[str, list[list[str]]]:
-    """For every block of a study the sweeps that make its points, each a list of Hydra overrides.
+    """The sweeps that make the points of a study.
 
-    `overrides` replace what a block says. The first point of a block that varies something is the one
-    that nothing is varied in.
+    Parameters
+    ----------
+    study : Study
+        The study.
+    overrides : list of str
+        What replaces settings of its blocks.
+
+    Returns
+    -------
+    dict
+        For every block its sweeps, each a list of overrides. Of a block with `vary`, the first point is
+        the one in which nothing is varied.
+
+    Raises
+    ------
+    ConfigurationError
+        If an override is given twice, or `vary` is no mapping.
     """
     given = dict(override.partition("=")[::2] for override in overrides)
     if len(given) < len(overrides):

@@ -6,9 +6,30 @@ from sphstudy.errors import ConfigurationError
 
 
 class StudyPoints:
-    """The points of one study file (not of those it includes), by block, in order.
+    """The points of one study file, without those of studies that it includes.
 
-    `skipped`: cells left out because they are not valid, with the complaint. `folder`: of the results.
+    Parameters
+    ----------
+    hydra : Session
+        Composes them.
+    name : str
+        The study.
+    overrides : list of str
+        What replaces settings of its file.
+
+    Attributes
+    ----------
+    blocks : dict
+        Points of each block, in order.
+    skipped : list of str
+        Complaints about cells that are left out because they are not valid.
+    folder : str
+        Folder of the results; "" if there are no points.
+
+    Raises
+    ------
+    ConfigurationError
+        If the file is wrong, or a point is not valid and the study does not leave such cells out.
     """
 
     def __init__(self, hydra: Session, name: str, overrides: list[str]):
@@ -26,9 +47,17 @@ class StudyPoints:
 
 
 def all_points(hydra: Session, name: str, overrides: list[str]) -> tuple[list[Point], str, list[str]]:
-    """All points of a study and of those it includes, each once; the folder of results; what is skipped.
+    """All points of a study and of those that it includes, each once; parameters as those of StudyPoints.
 
-    Raises ConfigurationError if there are none, or with every complaint if one is not valid.
+    Returns
+    -------
+    list of Point, str, list of str
+        The points, the folder of their results, and complaints about cells that are left out.
+
+    Raises
+    ------
+    ConfigurationError
+        If there are none, or with every complaint if one is not valid.
     """
     found: dict[str, Point] = {}
     skipped: list[str] = []

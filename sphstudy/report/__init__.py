@@ -1,1 +1,1 @@
-"""Figures, claims and pages, made from stored data only: nothing here runs a simulation."""
+"""Figures, tables and pages, made from stored data only: nothing here runs a simulation."""

@@ -1,6 +1,4 @@
-"""Tables of the cheapest setting for an error, for each scene that was run by more than one method or
-solver.
-"""
+"""Tables of the cheapest setting for an error, of each scene with several methods or solvers."""
 
 from sphstudy import text
 from sphstudy.analysis import work_precision
@@ -12,7 +10,7 @@ NONE = "no point reaches it"
 
 
 def tables(results: Results) -> list[Table]:
-    """A table a scene: for each of precision.BOUNDS the cheapest setting whose error lies within it."""
+    """A table for each scene: the cheapest setting within each of work_precision.BOUNDS."""
     own = results.table[results.table["study"] == results.name]
     found = []
     for scene in dict.fromkeys(own["scene"]):
@@ -60,7 +58,7 @@ def _row(bound: float, choice: Choice | None) -> list[Cell]:
 
 
 def standing(choice: Choice) -> str:
-    """Whether the choice is to be relied on, in words."""
+    """How far one can rely on the choice, in words."""
     if choice.confirmed:
         turns = ", though the sign changes" if choice.row["turns"] else ""
         return f"confirmed by all finer resolutions{turns}"

@@ -1,4 +1,4 @@
-"""Shared parts of figures: what particles look like, and the scene that a schematic figure shows."""
+"""Shared parts of figures: how particles look, and the scene that a schematic figure shows."""
 
 from dataclasses import replace
 from typing import Any
@@ -32,8 +32,8 @@ MARKS: dict[str, dict[str, Any]] = {
     "hidden": {"marker": "*", "color": "C6", "markersize": 9},
     "reference": {"marker": "o", "color": "0.75", "markersize": 3},
 }
-"""How particles of a kind are drawn. observer: particle i; neighbour: one that it interacts with; hidden:
-one behind a crack; reference: one in the background."""
+"""The look of particles by kind. observer: particle i; neighbour: one that it interacts with; hidden: one
+behind a crack; reference: one in the background."""
 
 
 def particles(
@@ -96,7 +96,7 @@ def spacing(run: xr.Dataset) -> tuple[float, float]:
 
 
 def plain_logarithmic(axis: Axis) -> None:
-    """Labels a logarithmic axis with plain numbers: 1, 2, 5, 10 …, the longer it is the fewer."""
+    """Labels a logarithmic axis with plain numbers: 1, 2, 5, 10 …, a long one with fewer."""
     low, high = axis.get_view_interval()
     subdivisions = {30.0: (1.0, 2.0, 5.0), 1000.0: (1.0, 3.0), np.inf: (1.0,)}
     axis.set_major_locator(
@@ -107,7 +107,7 @@ def plain_logarithmic(axis: Axis) -> None:
 
 
 def geometry(axes: Axes) -> None:
-    """Makes axes those of a drawing of the body: equal scales, no grid, coordinates in metres."""
+    """Prepares axes for a drawing of the body: equal scales, no grid, coordinates in metres."""
     axes.set_aspect("equal")
     axes.grid(False)
     axes.set_xlabel("x (m)")
@@ -115,7 +115,7 @@ def geometry(axes: Axes) -> None:
 
 
 def first_configuration(results: Results, scene: str) -> RunConfig:
-    """Configuration of the first point of the grid of this scene. Raises Missing if there is none."""
+    """Configuration of the scene's first point in block `grid`; raises Missing if there is none."""
     rows = results.select({"scene": scene}, "grid")
     if rows.empty:
         raise Missing(f"{results.name}: no point of scene {scene} in block grid")
@@ -124,6 +124,6 @@ def first_configuration(results: Results, scene: str) -> RunConfig:
 
 
 def built(config: RunConfig, n: int | None = None) -> Problem:
-    """The scene of a configuration, with resolution n instead of its own where it is given."""
+    """The problem of a configuration, with resolution n if it is given."""
     config = config if n is None else replace(config, n=n)
     return scene_module(config.scene.kind).build(config)

@@ -20,7 +20,7 @@ from sphstudy.report.sections import Origin
 from sphstudy.table import Table
 
 WORST = 8
-"""Comparisons shown at once; all of them stand below, folded."""
+"""Comparisons shown at once; the fold below has all of them."""
 
 _TONES = {
     **dict.fromkeys((REPRODUCED, WITHIN, "done"), "good"),
@@ -31,7 +31,7 @@ _TONES = {
 
 @dataclass(frozen=True)
 class Compared:
-    """A comparison with accepted intervals: how many of each verdict, the worst, and all rows."""
+    """A comparison with accepted intervals. counts: how many values have each verdict."""
 
     id: str
     title: str
@@ -41,10 +41,20 @@ class Compared:
 
 
 def write(results: Results, folder: Path) -> Path:
-    """Makes the report of a study, of those that it includes and of those shown with it.
+    """Writes the report of a study, of those that it includes and of those that it shows.
 
-    Writes <folder>/figures/<name>.png and .pdf or .gif, and <folder>/index.html, the latter with figures,
-    style and script inside. What is missing or goes wrong is said in its place. Returns the page's path.
+    Parameters
+    ----------
+    results : Results
+        The study.
+    folder : Path
+        Where index.html is written, with figures, style and script inside, and the figures once more:
+        figures/<name>.png and .pdf or .gif.
+
+    Returns
+    -------
+    Path
+        Of the page. Where a figure lacks data or fails, the page says why.
     """
     folder.mkdir(parents=True, exist_ok=True)
     found = sections.studies(results)
@@ -107,7 +117,7 @@ def _environment() -> jinja2.Environment:
 
 
 def _period(origins: list[Origin]) -> str:
-    """When the first and the last of the records were begun."""
+    """When the first and the last record were begun."""
     first, last = min(o.first for o in origins), max(o.last for o in origins)
     return _moment(first) if first == last else f"{_moment(first)} to {_moment(last)}"
 

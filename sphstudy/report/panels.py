@@ -21,22 +21,22 @@ _STRESSES = ("stress_xx", "stress_yy", "stress_xy")
 _UNITS = ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa"))
 
 _SLENDER = 2.2
-"""Bodies that are so many times as long as high are drawn below each other, if they are few."""
+"""Length over height from which on few bodies are drawn below each other."""
 
 _ACROSS = 3
-"""Panels beside each other at most."""
+"""Most panels beside each other."""
 
 _WIDE = 9.0
-"""Width (inch) of a figure with so many."""
+"""Width (inch) of a figure with that many."""
 
 _LETTERS = 14
-"""Of a title in an inch."""
+"""Characters of a panel title that fit into one inch."""
 
 _SHARE = 99.5
-"""Percentile of the colours' end: a few particles must not take all the colours."""
+"""Percentile at which the colours end: a few particles must not take all of them."""
 
 Quantity = Callable[[xr.Dataset, xr.Dataset], np.ndarray]
-"""Of a record and one or more of its states, what colours its particles."""
+"""What colours the particles: from a record, and one or more of its states, values [..., N]."""
 
 
 def mises(run: xr.Dataset, state: xr.Dataset) -> np.ndarray:
@@ -47,7 +47,7 @@ def mises(run: xr.Dataset, state: xr.Dataset) -> np.ndarray:
 
 
 def pressure(run: xr.Dataset, state: xr.Dataset) -> np.ndarray:
-    """Less a third of the trace of the stress (Pa); plane strain: σzz = ν (σxx + σyy)."""
+    """Pressure (Pa), -tr(σ)/3; in plane strain σzz = ν (σxx + σyy)."""
     scene = configuration(run).scene
     in_plane = state["stress_xx"].values + state["stress_yy"].values
     return -in_plane * (1.0 + (scene.nu if scene.plane == "strain" else 0.0)) / 3.0
@@ -55,7 +55,7 @@ def pressure(run: xr.Dataset, state: xr.Dataset) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Shown:
-    """A run as it is shown: its record, the case that it is of, what it is called, and its outcome."""
+    """A run on a panel: its record, its case (runs of one case share a row), title and outcome."""
 
     run: xr.Dataset
     case: str
@@ -64,19 +64,29 @@ class Shown:
 
     @property
     def times(self) -> np.ndarray:
-        """Of the states that were kept (s); of a diverged run the last one is the last good one."""
+        """Times (s) of the stored states; a diverged run ends with its last good one."""
         return self.run["snapshot_time"].values
 
 
 class Panels:
-    """A figure with a panel for each of some runs of a scene, coloured by one quantity.
+    """A figure with a panel for each run, its particles coloured by one quantity.
 
-    View and colours are those of the sound runs, if there are any: what flies apart leaves the picture,
-    what is beyond the colours has the last of them.
+    The sound runs, if there are any, determine view and colours: particles that fly apart leave the
+    picture, values beyond the colours have the last of them.
+
+    Parameters
+    ----------
+    shown : list of Shown
+        Runs of one scene.
+    quantity : Quantity
+        What colours their particles (Pa).
+    label : str
+        The name of the quantity, without unit.
+    symmetric : bool
+        Whether the colours lie about zero.
     """
 
     def __init__(self, shown: list[Shown], quantity: Quantity, label: str, symmetric: bool = False):
-        """label: of the quantity, without unit. symmetric: colours about zero."""
         self.shown, self._quantity = shown, quantity
         sound = next(
             filter(None, ([s for s in shown if s.outcome == o] for o in (DONE, "degraded"))), shown
@@ -90,7 +100,7 @@ class Panels:
         width = total / columns
         height = width * (view[3] - view[2]) / (view[1] - view[0]) + 0.5
         self.figure = Figure(figsize=(total, rows * height + 0.75), layout="constrained")
-        # A list: an array of axes would be copied apart from the figure on its way to another process.
+        # A list: pickling an array of axes would copy them apart from their figure.
         axes = list(self.figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat)
         limits, scale, unit = self._colours(sound, symmetric)
         self._scale = scale
@@ -115,16 +125,16 @@ class Panels:
         self.figure.supylabel("$y$ (m)", fontsize="medium")
 
     def show(self, time: float) -> None:
-        """Shows of each run the last state until then (s), which is also said."""
+        """Shows the last state of each run up to that time (s), and writes its time in the title."""
         for body, axes, one in zip(self._bodies, self.axes, self.shown, strict=True):
-            # Times of states are those of steps, which are not the same in all runs.
+            # States lie at steps, and steps differ from run to run.
             k = max(0, int((one.times <= time + 0.5 * self._interval).sum()) - 1)
             state = one.run.isel(snapshot=k)
             body.set_offsets(np.column_stack((state["x"].values, state["y"].values)))
             body.set_array(self._quantity(one.run, state) / self._scale)
             over = one.outcome != DONE and one.outcome != "degraded" and k == one.times.size - 1
             last = str(state["snapshot_label"].values) == LAST_GOOD
-            # Plain text: formulas take a third of the time of a frame.
+            # Plain text: a formula would take a third of a frame's time.
             when = f"t = {number(float(one.times[k]), 3)} s"
             said = f"{one.outcome}, last good state, {when}" if last or over else when
             axes.set_title(f"{textwrap.fill(one.label, self._letters)}\n{said}", fontsize="small")
@@ -136,7 +146,7 @@ class Panels:
 
     @property
     def frames(self) -> int:
-        """The most states that any run has kept."""
+        """The number of states of the run that has most."""
         return max(one.times.size for one in self.shown)
 
     @property

@@ -1,4 +1,4 @@
-"""What the report says of each study on its page: figures, tables, points that are not done, origins."""
+"""A study on the page of a report: figures, tables, points that are not done, origins of records."""
 
 from collections import Counter
 from collections.abc import Iterable
@@ -22,7 +22,7 @@ from sphstudy.table import Table
 
 @dataclass(frozen=True)
 class GroupTables:
-    """Everything in tables about the points of one scene in one block."""
+    """The tables of one scene in one block."""
 
     title: str
     summary: str
@@ -43,8 +43,8 @@ class NotDone:
 
 @dataclass(frozen=True)
 class Section:
-    """A study on the page. stored: whether any of its own points is, or there are none. not_named: how
-    many points are not done beside those listed.
+    """A study on the page. stored: whether the store has any of its points (True without points).
+    not_named: points that are not done and not listed.
     """
 
     name: str
@@ -61,7 +61,7 @@ class Section:
 
 @dataclass(frozen=True)
 class Origin:
-    """Where some of the records come from. dirty: computed from sources with uncommitted changes."""
+    """What computed some of the records. dirty: sources with uncommitted changes."""
 
     records: int
     first: str
@@ -74,13 +74,13 @@ class Origin:
 
 
 def studies(results: Results) -> list[Results]:
-    """The study, those that it includes and those shown with it, in the order of the page."""
+    """The study, those that it includes and those that it shows, in the order of the page."""
     names = [results.name, *study_file.members(results.name), *results.definition.shows]
     return [results.other(name) for name in dict.fromkeys(names)]
 
 
 def section(results: Results, folder: Path) -> Section:
-    """Draws the study's figures below the folder and makes its tables."""
+    """Draws the study's figures into the folder and makes its tables."""
     rows = results.table[results.table["study"] == results.name]
     stored = bool((rows["status"] != "missing").any()) if len(rows) else True
     definition = results.definition
@@ -126,7 +126,7 @@ def _not_done(row: pd.Series) -> NotDone:
 
 
 def summary(rows: pd.DataFrame) -> str:
-    """How many points there are, by outcome, and the CPU time that they took; each record once."""
+    """The number of points by outcome and their CPU time, in words; each record counts once."""
     rows = rows.drop_duplicates("record")
     if rows.empty:
         return ""
@@ -149,7 +149,7 @@ def _cost_summary(rows: pd.DataFrame) -> str:
 
 
 def origins(found: Iterable[Results]) -> list[Origin]:
-    """Where the records come from, as these say themselves."""
+    """The origins of all records of these studies, from their attributes."""
     tables = [results.table[results.table["status"] != "missing"] for results in found]
     records = pd.concat(tables).drop_duplicates("record")
     dates: dict[tuple[str, ...], list[str]] = {}

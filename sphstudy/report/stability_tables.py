@@ -33,8 +33,8 @@ def _row(case: Case) -> list[Cell]:
     found = case.judgement
     first, others = next(iter(found.breaches), None), found.breaches[1:]
     also = [f"{_name(one.bound)} {text.number(one.value, 3)} ({one.bound.interval})" for one in others]
-    # That what every scene is asked for does not exist in this one, or that a run ended too early for a
-    # metric, need not be said.
+    # General bounds ask for much that a scene does not have; a run that diverged ended too early for its
+    # metrics. Neither is worth a word.
     asked = [bound for bound in found.unjudged if not bound.general and found.outcome != DIVERGED]
     unjudged = [f"not judged: {_name(bound)}" for bound in asked]
     return [
@@ -52,7 +52,7 @@ def _row(case: Case) -> list[Cell]:
 
 
 def bounds(cases: list[Case]) -> Table:
-    """A row for each bound that any of the runs is judged by, with reason and source."""
+    """A row for each bound of these runs, with reason and source."""
     columns = [
         Column("scene", numeric=False),
         Column("quantity", numeric=False),
@@ -88,9 +88,7 @@ def _bound(scene: str, bound: Bound, cases: list[Case]) -> list[Cell]:
 
 
 def quoted(results: Results, cases: list[Case]) -> Table | None:
-    """A row for each value that others found for a scene, beside those of finite runs here; None if no
-    scene has any.
-    """
+    """A row for each value that others found, beside those of finite runs here; None without any."""
     columns = [
         Column("scene", numeric=False),
         Column("quantity", numeric=False),
@@ -131,7 +129,7 @@ def _range(low: float, high: float) -> str:
 
 
 def counts(cases: list[Case]) -> str:
-    """How many runs there are of each outcome, in words."""
+    """The number of runs of each outcome, in words."""
     found = Counter(case.judgement.outcome for case in cases)
     return ", ".join(f"{found[outcome]} {outcome}" for outcome in reversed(OUTCOMES) if found[outcome])
 

@@ -17,10 +17,10 @@ from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.table import Cell, Column, Table
 
 COST = ("cpu_seconds", "steps", "particles")
-"""Shown of every point beside the scene's own metrics."""
+"""Columns of every table of points, after the scene's own metrics."""
 
 LONGEST = 2000
-"""Points that are listed of a group, or as not done: a page with more is a burden to whoever opens it."""
+"""Points of a group, or points not done, that a page lists at most: more of them make it slow."""
 
 _NUMBER = (int, float)
 
@@ -51,7 +51,7 @@ class Group:
 
     @property
     def headline(self) -> list[str]:
-        """The metrics for tables of its points, as far as any point of the study has them."""
+        """The metrics for tables of its points, without those that no point of the study has."""
         kinds = dict.fromkeys((config.scene.name, config.solve.name) for config in self.configs)
         names = dict.fromkeys(name for kind in kinds for name in headline(*kind))
         return [name for name in names if name in self.results.attributes]
@@ -71,16 +71,14 @@ class Group:
 
 
 def groups(results: Results, rows: pd.DataFrame) -> Iterator[Group]:
-    """The groups that these rows of the results' table fall into, in order."""
+    """Divides rows of the results' table into groups, in order."""
     for (block, scene), chosen in rows.groupby(["block", "scene"], sort=False):
         configs = [results.config_at(row) for row in chosen.index]
         yield Group(results, str(block), str(scene), chosen, configs)
 
 
 def points(group: Group) -> Table:
-    """A row for each point: the settings that tell it from others, outcome, headline metrics and cost. Of
-    very many, the first.
-    """
+    """A row for each of the first LONGEST points: settings that differ, outcome, metrics and cost."""
     metrics = [*group.headline, *(name for name in COST if name in group.results.attributes)]
     told_apart = _told_apart(group)
     columns = [
@@ -119,7 +117,7 @@ def _setting_cell(value: Any) -> Cell:
 
 
 def effects(group: Group, found: list[Effect]) -> Table:
-    """A row for each changed setting: by how much it changes each headline metric."""
+    """A row for each changed setting: the change of each metric. found: the effects in the group."""
     metrics = [name for name in group.headline if any(effect.metric == name for effect in found)]
     base = {effect.metric: effect.base for effect in found}
     changes = {(effect.varied, effect.metric): effect.change for effect in found}
@@ -137,7 +135,7 @@ def effects(group: Group, found: list[Effect]) -> Table:
 
 
 def cost(group: Group) -> Table | None:
-    """A row for each resolution: CPU time and the range of each relative error; None for a single one."""
+    """A row for each resolution: CPU time and range of each relative error. None if there is only one."""
     done = group.rows[group.rows["status"] == "done"]
     if group.one_at_a_time or done["n"].nunique() < 2:
         return None
@@ -193,7 +191,7 @@ def _compared(item: Comparison) -> list[Cell]:
 
 
 def common_settings(group: Group) -> list[Setting]:
-    """The resolved configuration as far as all points of the group share it."""
+    """The settings that all points of the group share."""
     flat = [config.flat() for config in group.configs]
     shared = {
         key: value for key, value in flat[0].items() if all(other.get(key) == value for other in flat)
@@ -205,7 +203,7 @@ def common_settings(group: Group) -> list[Setting]:
 
 
 def _meaning(config: RunConfig, key: str) -> str:
-    """What a setting is, from the Parameters that declare it."""
+    """The meaning of a setting, from the Parameters that declare it."""
     part, _, name = key.partition(".")
     owner: Any = getattr(config, part) if name else config
     meaning: str = type(owner).__pydantic_fields__[name or part].description or ""

@@ -1,4 +1,4 @@
-"""Tables of a study's time steps: the largest stable ones, and those that are worth taking."""
+"""Tables of time steps: the largest stable ones, and the longest that hardly change the error."""
 
 import numpy as np
 import pandas as pd
@@ -11,7 +11,7 @@ from sphstudy.table import Cell, Column, Table
 
 
 def tables(results: Results) -> list[Table]:
-    """Both tables, of the study's own points, as far as it has any."""
+    """Both tables of the study's own points; none where it has no limits."""
     own = results.table[results.table["study"] == results.name]
     found = time_steps.limits(own)
     if found.empty:

@@ -1,4 +1,4 @@
-"""Ctrl-C that is obeyed, whatever libraries make of it."""
+"""Ctrl-C that ends the program, even where a library swallows it or turns it into another error."""
 
 import contextlib
 import signal
@@ -8,11 +8,13 @@ from types import FrameType
 from typing import Any
 
 AGAIN = 0.5
-"""Seconds after which a library that has dropped an interrupt meets the next."""
+"""Seconds between two signals to a library that drops interrupts."""
 
 
 class _Handler:
-    """What is to be done about Ctrl-C, and then. Known as this program's."""
+    """A SIGINT handler: calls `handle`, then the previous handler `then`. A class of its own, so that
+    handlers of this program are recognised.
+    """
 
     def __init__(self, handle: Callable[[], None], then: Callable[[int, FrameType | None], Any]):
         self._handle, self._then = handle, then
@@ -24,9 +26,15 @@ class _Handler:
 
 @contextlib.contextmanager
 def on_interrupt(handle: Callable[[], None]) -> Iterator[None]:
-    """Ctrl-C calls `handle` while the block works, before it becomes a KeyboardInterrupt. A process that
-    was told to ignore it, or to do something else about it, obeys; and of the threads of a process only
-    the main one hears of it.
+    """Calls `handle` at Ctrl-C while the block works, before a KeyboardInterrupt is raised.
+
+    Where the process ignores SIGINT or has a handler that is not Python's, and in other threads than the
+    main one, which never get signals, the block works as it would without.
+
+    Parameters
+    ----------
+    handle : callable
+        Called by the signal handler.
     """
     before: Any = signal.getsignal(signal.SIGINT)
     ours = before is signal.default_int_handler or isinstance(before, _Handler)
@@ -42,10 +50,20 @@ def on_interrupt(handle: Callable[[], None]) -> Iterator[None]:
 
 @contextlib.contextmanager
 def interruptible(insisting: bool = False) -> Iterator[None]:
-    """Ctrl-C leaves the block as a KeyboardInterrupt, whatever a library has made of it on the way: Hydra
-    makes another error of it while it reads files.
+    """Turns whatever leaves the block after Ctrl-C into a KeyboardInterrupt.
 
-    insisting: it comes again until the block is left. llvmlite, while it compiles, drops what is raised.
+    Hydra turns a KeyboardInterrupt into another error while it reads files.
+
+    Parameters
+    ----------
+    insisting : bool
+        Whether the signal is repeated until the block is left: llvmlite drops exceptions while it
+        compiles.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        If Ctrl-C came and an exception leaves the block.
     """
     # A list, not an event: another interrupt may come while this one is noted, and wait for the lock.
     came: list[bool] = []

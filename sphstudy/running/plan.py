@@ -1,22 +1,14 @@
 """What a sweep will do before it does it: which points would run, why, and what they will cost."""
 
-import json
 from collections import Counter
 from dataclasses import dataclass
-from datetime import datetime, timedelta
-
-from rich.box import SIMPLE_HEAD
-from rich.table import Table
 
 from sphstudy.analysis.cost_forecast import prospect, rates
 from sphstudy.catalogue import method_module, scene_module
 from sphstudy.configuration.composition import Point
-from sphstudy.configuration.run_settings import flattened
-from sphstudy.console import console
 from sphstudy.errors import ConfigurationError
-from sphstudy.running.progress import duration
-from sphstudy.store import identity
-from sphstudy.store.store import REUSED, Store, read_summary
+from sphstudy.store.store import REUSED, Store
+from sphstudy.text import duration
 
 TRIED_AGAIN = {
     "none": (),
@@ -85,59 +77,10 @@ def _decision(status: str, retry: str, force: bool) -> tuple[bool, str]:
     return False, f"{status}: retry={status} tries it again"
 
 
-def print_plan(planned: list[Planned], store: Store, workers: int) -> None:
-    """A table of the points: whether they would run, why, and what is predicted."""
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading in ("point", "would run", "because", "CPU (s)", "memory (MB)"):
-        table.add_column(heading, justify="right" if "(" in heading else "left")
-    older = _older_records(planned, store)
-    for p in sorted(planned, key=lambda p: -p.seconds):
-        reason = older.get(id(p), p.reason)
-        memory = f"{p.memory / 1e6:.0f}"
-        table.add_row(p.point.config.label, "yes" if p.runs else "no", reason, f"{p.seconds:.1f}", memory)
-    console().print(table)
-    pending = [p for p in planned if p.runs]
-    print(prediction(pending))
-    if pending:
-        # No sooner than the longest of them, and no run is shared.
-        seconds = max(sum(p.seconds for p in pending) / workers, *(p.seconds for p in pending), 0.0)
-        end = datetime.now().astimezone() + timedelta(seconds=seconds)
-        most = max(p.memory for p in pending) * min(workers, len(pending)) / 1e6
-        print(f"begun now, {workers} at once: done about {end:%a %H:%M}, up to {most:.0f} MB of memory")
-
-
-def _older_records(planned: list[Planned], store: Store) -> dict[int, str]:
-    """For points without a record, why one of the same label does not serve: by id of the point."""
-    wanted = {p.point.config.label: p for p in planned if p.status == "missing"}
-    found: dict[int, str] = {}
-    for path in store.runs.glob("*.nc"):
-        label = path.stem.rpartition("-")[0]
-        if label not in wanted or (summary := read_summary(path)) is None:
-            continue
-        p = wanted[label]
-        reason = difference(summary.attributes, p.point)
-        # The least different of several records tells most.
-        if id(p) not in found or len(reason) < len(found[id(p)]):
-            found[id(p)] = reason
-    return found
-
-
-def difference(attributes: dict, point: Point) -> str:
-    """What sets a stored record apart from a point of the same label."""
-    stored = flattened(json.loads(attributes["configuration"]))
-    now = point.config.flat()
-    changed = [key for key in now if stored.get(key) != now[key]]
-    if not changed and attributes["numerics_version"] != identity.numerics_version(point.config):
-        return "changed numerics: the code of scene, method or solver"
-    told = ", ".join(f"{key}={stored.get(key)} is stored" for key in changed[:3])
-    more = f" and {len(changed) - 3} more" if len(changed) > 3 else ""
-    return f"new: {told}{more}"
-
-
 def prediction(pending: list[Planned]) -> str:
     """How much there is to do."""
     seconds = sum(p.seconds for p in pending)
-    return f"{len(pending)} runs to do, about {duration(seconds)} of CPU time"
+    return f"{len(pending)} runs to do, about {duration(seconds, 2)} of CPU time"
 
 
 def kept(planned: list[Planned]) -> str:

@@ -15,6 +15,7 @@ from rich.table import Table
 from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.store.lock import Holder, holder
 from sphstudy.store.store import Store
+from sphstudy.text import duration
 
 _INTERVAL = 0.5
 _SILENCE = 30.0
@@ -95,7 +96,7 @@ class _Board:
         elapsed = time.monotonic() - self.started
         if done < 0.01 or elapsed < 2.0:
             return "time left unknown yet"
-        return f"about {duration(elapsed * (1.0 - done) / done)} left"
+        return f"about {duration(elapsed * (1.0 - done) / done, 2)} left"
 
     def headline(self) -> str:
         """One line: how many are done, and how long the rest will take."""
@@ -166,12 +167,3 @@ def _follow_live(board: _Board, console: Console, stop: threading.Event) -> None
             for line in board.news():
                 live.console.print(line, highlight=False, markup=False)
             live.update(board.picture(), refresh=True)
-
-
-def duration(seconds: float) -> str:
-    """A duration as people say it."""
-    if seconds < 90:
-        return f"{seconds:.0f} s"
-    if seconds < 5400:
-        return f"{seconds / 60:.0f} min"
-    return f"{seconds / 3600:.1f} h"

@@ -52,7 +52,7 @@ def test_the_cheapest_with_the_points_it_rests_on(results, capsys):
     assert main(["advise", "scene=plate", "error=1%", f"results={results}"]) == 0
     shown = capsys.readouterr().out
     assert "  sphstudy scene=plate method=tl solve=modes h=1.3 n=15\n" in shown
-    assert "error -0.4 %, 0.2 s of CPU time measured" in shown
+    assert "error −0.40 %, 0.20 s of CPU time measured" in shown
     assert "confirmed: n=21" in shown
     lines = {line.partition("  ")[0].strip(): line for line in shown.splitlines()}
     assert "n=9" in lines["best of cheaper ones"]
@@ -95,10 +95,10 @@ def test_what_is_out_of_reach_is_said_and_extrapolated(results, capsys):
         (["scene=plate", "error=abc"], "error=abc: should be a positive number"),
         (["scene=plate", "error=nan"], "error=nan: should be a positive number"),
         (["scene=plate", "error=1%", "error=2%"], "error: is given twice"),
-        (["scene=plate", "error=1%", "h=1.3"], "h=1.3: not an option of advise"),
+        (["scene=plate", "error=1%", "h=1.3"], "h=1.3: unknown option of advise 'h'; there are error"),
         (["scene=plate", "error=1%", "method=sph"], "method=sph: in study precision is tl, thesis"),
         (["scene=plate", "error=1%", "metric=no"], "scene=plate metric=no: study precision has no point"),
-        (["scene=plate", "error=1%", "study=no"], "study no: there is"),
+        (["scene=plate", "error=1%", "study=no"], "unknown study 'no'; there are"),
         (["scene=plate", "error=1%", "study=plate"], "run study plate first"),
     ],
 )

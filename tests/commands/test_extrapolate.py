@@ -5,9 +5,9 @@ import pytest
 import xarray as xr
 
 from sphstudy.__main__ import main
-from sphstudy.commands.extrapolate import with_uncertainty
 from sphstudy.store.netcdf import write
 from sphstudy.store.record import STATUS
+from sphstudy.text import with_uncertainty
 from tests.analysis.test_extrapolation import swept
 
 
@@ -92,8 +92,8 @@ def test_a_value_has_the_digits_that_its_uncertainty_leaves(value, uncertainty, 
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        ([], "extrapolate: write extrapolate STUDY|FILE.nc METRIC"),
-        (["swept"], "extrapolate: write extrapolate STUDY|FILE.nc METRIC"),
+        ([], "extrapolate: write sphstudy extrapolate STUDY|FILE.nc METRIC"),
+        (["swept"], "extrapolate: write sphstudy extrapolate STUDY|FILE.nc METRIC"),
         (["gone", "tip"], "gone: studies are bending"),
         (["gone.nc", "tip"], "gone.nc: there is neither gone.nc nor results/sweeps/gone.nc.nc"),
         (["plate", "tip"], "plate: run study plate first"),
@@ -107,8 +107,11 @@ def test_a_value_has_the_digits_that_its_uncertainty_leaves(value, uncertainty, 
         (["swept", "tip", "--order", "-1"], "--order=-1: should be a number"),
         (["swept", "tip", "--order=0"], "--order=0: should be a number"),
         (["swept", "tip", "--order=nan"], "--order=nan: should be a number"),
-        (["swept", "tip", "--order"], "--order: lacks its value"),
-        (["swept", "tip", "--over", "h"], "--over: not a flag of extrapolate"),
+        (["swept", "tip", "--order"], "--order: lacks its value (see sphstudy extrapolate --help)"),
+        (
+            ["swept", "tip", "--over", "h"],
+            "unknown option of extrapolate '--over'; did you mean '--order'?",
+        ),
         (["swept", "tip", "--output", "results/sweeps/swept.nc"], "that is the dataset itself"),
         (["swept", "tip", "--output", "text.nc/zero.nc"], "--output=text.nc/zero.nc: cannot be written"),
     ],

@@ -138,7 +138,7 @@ from sphstudy.__main__ import main
 
 class Swallowing:
     def find_spec(self, name, path, target=None):
-        if name == "sphstudy.running.sweep":
+        if name == "sphstudy.commands.run":
             try:
                 signal.raise_signal(signal.SIGINT)
             except KeyboardInterrupt:
@@ -156,17 +156,17 @@ def test_an_interrupt_that_a_library_makes_another_error_of_is_still_one():
     """As Hydra does, in the few milliseconds in which it reads a file."""
     program = """
 import signal, sys
-from sphstudy import batch
 from sphstudy.__main__ import main
+from sphstudy.commands import run
 
-def run_command(*arguments, **options):
+def interrupted(request):
     try:
         signal.raise_signal(signal.SIGINT)
     except KeyboardInterrupt:
         raise ValueError("cannot be read")
 
 signal.signal(signal.SIGINT, signal.default_int_handler)
-batch.run_command = run_command
+run.run = interrupted
 sys.exit(main(["h=1.5"]))
 """
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
@@ -179,10 +179,10 @@ def test_while_numba_compiles_nothing_is_raised_but_the_program_left(terminal):
     program = """
 import signal, sys
 from numba.core.compiler_lock import global_compiler_lock
-from sphstudy import batch
 from sphstudy.__main__ import main
+from sphstudy.commands import run
 
-def run_command(*arguments, **options):
+def interrupted(request):
     with global_compiler_lock:
         try:
             signal.raise_signal(signal.SIGINT)
@@ -190,7 +190,7 @@ def run_command(*arguments, **options):
             print("raised")
 
 signal.signal(signal.SIGINT, signal.default_int_handler)
-batch.run_command = run_command
+run.run = interrupted
 sys.exit(main(["h=1.5"]))
 """
     ours, theirs = os.openpty() if terminal else os.pipe()

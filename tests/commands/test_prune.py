@@ -8,12 +8,12 @@ import time
 import pytest
 
 from sphstudy.__main__ import main
-from sphstudy.commands.prune import FORGOTTEN
 from sphstudy.running import one_run
 from sphstudy.running.one_run import compute, give_up
 from sphstudy.store import identity
 from sphstudy.store.lock import Claim
 from sphstudy.store.netcdf import write
+from sphstudy.store.stale import FORGOTTEN
 from sphstudy.store.store import Store
 from tests.support.made_up import Solver, points, solved
 

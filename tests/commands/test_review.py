@@ -154,7 +154,7 @@ def test_a_study_file_that_names_what_is_not_there_is_refused_before_anything_ru
     for text, complaint in (
         ("claims: [X9]", "unknown claim 'X9'; there are"),
         ("figures: [plate.gone]", "unknown figure 'plate.gone'; "),
-        ("shows: [gone]", "study gone: there is"),
+        ("shows: [gone]", "unknown study 'gone'; there are"),
     ):
         path = place / "studies" / "wrong.yaml"
         path.write_text(f"title: wrong\nblocks: {{grid: {PLATE}}}\n{text}\n")
@@ -204,23 +204,23 @@ def test_references_are_refused_for_runs_of_dirty_sources_and_for_missing_runs(p
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        (["compare"], "write compare STUDY"),
-        (["compare", "tiny", "foo=1"], "write compare STUDY"),
+        (["compare"], "write sphstudy compare STUDY"),
+        (["compare", "tiny", "foo=1"], "foo=1: unknown option of compare 'foo'; there are all"),
         (["compare", "tiny", "gone.nc"], "gone.nc: there is neither"),
-        (["compare", "gone"], "study gone: there is"),
-        (["compare", "one.nc"], "write compare STUDY"),
+        (["compare", "gone"], "unknown study 'gone'; there are"),
+        (["compare", "one.nc"], "write sphstudy compare STUDY"),
         (["compare", "tiny", "all=maybe"], "all=maybe: should be true or false"),
         (["compare", "tiny", "tiny", "tolerance=-1"], "tolerance=-1: should be a number"),
         (["compare", "studies/tiny.yaml", "tiny"], "cannot be read"),
         (["compare", "choices"], "there is nothing to compare"),
         (["study", "tiny", "n=5", "n=7"], "n: is given twice"),
-        (["measure", "tiny", "-f"], "-f: neither a flag of measure"),
+        (["measure", "tiny", "-f"], "-f: goes with run, study, not with measure"),
         (["measure", "tiny", "results=/proc/x"], "cannot be written"),
         (["compare", "tiny", "choices", "tolerance=x"], "tolerance=x: should be a number"),
         (["report"], "report: name one of"),
-        (["measure", "gone"], "study gone: there is"),
-        (["reference", "tiny", "n=5"], "takes a study as it is"),
-        (["h=1.5", "--dry-run"], "--dry-run: goes with study"),
+        (["measure", "gone"], "unknown study 'gone'; there are"),
+        (["reference", "tiny", "n=5"], "n=5: unknown option of reference 'n'; there are results"),
+        (["h=1.5", "--dry-run"], "--dry-run: goes with study, speed, peers, not with run"),
     ],
 )
 def test_wrong_commands_are_answered_in_a_line(place, arguments, complaint, capsys):

@@ -10,7 +10,8 @@ import xarray as xr
 import sphstudy
 from sphstudy import metrics
 from sphstudy.__main__ import main
-from sphstudy.running import launching, one_run
+from sphstudy.running import launching
+from sphstudy.store import measured
 from sphstudy.store.record import STATUS
 
 SMALL = ["scene=plate", "scene.periods=0.3"]
@@ -94,15 +95,15 @@ def test_wrong_input_ends_with_status_two_before_anything_runs(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        (["foo"], "foo: neither a command, a flag nor key=value"),
-        (["-x"], "-x: neither"),
+        (["foo"], "unknown command 'foo'; there are run, study"),
+        (["-x"], "unknown option of run '-x'; did you mean '-m'?"),
         (["study"], "study: name one of"),
-        (["study", "foo"], "study foo: there is"),
+        (["study", "foo"], "unknown study 'foo'; there are"),
         (["status", "results=/nowhere"], "results=/nowhere: there are no runs"),
-        (["describe", "foo"], "describe foo: write describe"),
-        (["describe", "scene", "foo"], "scene=foo: there is"),
+        (["describe", "foo"], "unknown scene, method or solver 'foo'; there are"),
+        (["describe", "scene", "foo"], "unknown scene 'foo'; "),
         (["results=/proc/x"], "results=/proc/x: cannot be written"),
-        (["hydra/launcher=foo"], "hydra/launcher=foo"),
+        (["hydra/launcher=foo"], "unknown launcher 'foo'"),
         (
             ["scene=plate", "record.times=[7.0]"],
             "record.times=7: plate-thesis-h1.5-n9 runs from 0 to 6.5",
@@ -145,14 +146,14 @@ def test_a_diverged_point_is_a_result_and_costs_no_other(tmp_path):
 
 def test_a_failed_point_is_in_the_dataset_and_in_the_exit_status(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    original = one_run.measure
+    original = measured.measure
 
     def fails_at_seven(run, config, modules):
         if config.n == 7:
             raise ZeroDivisionError("made for this test")
         return original(run, config, modules)
 
-    monkeypatch.setattr(one_run, "measure", fails_at_seven)
+    monkeypatch.setattr(measured, "measure", fails_at_seven)
     arguments = ["-m", *SMALL, "n=5,7", "hydra/launcher=basic"]
     assert main(arguments) == 1
     shown = capsys.readouterr()
@@ -160,7 +161,7 @@ def test_a_failed_point_is_in_the_dataset_and_in_the_exit_status(tmp_path, monke
     (log,) = (tmp_path / "results" / "runs").glob("*-n7-*.log")
     assert "Traceback" in (said := log.read_text())
     assert "made for this test" in said
-    monkeypatch.setattr(one_run, "measure", original)
+    monkeypatch.setattr(measured, "measure", original)
     assert main(arguments) == 1, "a failed point is neither a result nor tried again by itself"
     assert "retry=failed runs them again" in capsys.readouterr().err
     assert main([*arguments, "retry=failed"]) == 0
@@ -171,13 +172,13 @@ def test_metrics_of_another_version_are_measured_again_without_running(swept, mo
     monkeypatch.chdir(folder)
     changed = dict.fromkeys(("frequency_error",), 0)
     monkeypatch.setattr("sphstudy.store.identity.metrics_version", lambda config: "another")
-    original = one_run.measure
+    original = measured.measure
 
     def measure(run, config, modules):
         changed["frequency_error"] += 1
         return original(run, config, modules)
 
-    monkeypatch.setattr(one_run, "measure", measure)
+    monkeypatch.setattr(measured, "measure", measure)
     monkeypatch.setattr(launching.Launching, "run", None)
     dataset = sphstudy.sweep(scene="plate", h=[1.5, 1.7], n=[5, 7], **{"scene.periods": 0.3})
     assert changed["frequency_error"] == 4

@@ -9,6 +9,7 @@ from sphstudy.analysis import results
 from sphstudy.analysis.results import Missing
 from sphstudy.configuration import study_file
 from sphstudy.configuration.composition import session
+from sphstudy.metrics.von_mises import von_mises as von_mises_stress
 from sphstudy.model.exact import beam, williams
 from sphstudy.report import figure
 from sphstudy.report.figures import (
@@ -188,7 +189,7 @@ def test_stress_fields_are_those_of_the_snapshot_asked_for(full, records):
         state = von_mises.snapshot_at(run, time)
         assert abs(float(state["snapshot_time"]) - time) <= float(run["time_step"])
         xx, yy, xy = (state[f"stress_{c}"].values for c in ("xx", "yy", "xy"))
-        expected = von_mises.von_mises(xx, yy, xy, "strain", 0.3) / 1e3
+        expected = von_mises_stress(xx, yy, xy, "strain", 0.3) / 1e3
         for axes in drawn(definition, full["plate"]).axes[:2]:
             (field,) = (c for c in axes.collections if isinstance(c, PolyCollection))
             np.testing.assert_allclose(field.get_array(), expected)

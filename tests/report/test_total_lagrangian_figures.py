@@ -16,7 +16,6 @@ from sphstudy.model.exact import williams
 from sphstudy.report import figure
 from sphstudy.report.figures import (
     bending,
-    crack_field,
     side_by_side,
     side_by_side_fields,
     total_lagrangian,
@@ -275,7 +274,7 @@ def test_positions_wait_for_both_runs_and_for_their_time(full, empty, monkeypatc
 
 @pytest.mark.parametrize("mode", [1, 2])
 def test_rows_ahead_of_the_tip_and_the_exact_curves(mode, full, records):
-    definition = getattr(side_by_side_fields, f"mode{mode}_stress")
+    definition = f"side_by_side_fields.mode{mode}_stress"
     panels = np.reshape(drawn(definition, full["thesis_vs_tl"]).axes, (3, 2))
     for column, method in zip(panels.T, ("thesis", "tl"), strict=True):
         run = records[f"mode{mode}", method]
@@ -347,7 +346,7 @@ def test_what_first_order_leaves_at_zero_is_marked(mode, full):
     left, everywhere = -2e-4, found.table["h"] > 0.0
     errors = left + 3.0 * found.table["spacing"]
     given = changed(found, everywhere, **{f"K_{roman}_integral_error": errors})
-    drawing = drawn(getattr(total_lagrangian, f"mode{mode}_stress_intensity"), given)
+    drawing = drawn(f"total_lagrangian.mode{mode}_stress_intensity", given)
     axes, zero = drawing.axes
     n = np.array([40, 50, 60, 80, 120])
     spacing, shown = line(axes, f"$K_\\mathrm{{{roman}}}$")
@@ -381,9 +380,9 @@ def test_one_resolution_is_drawn_without_a_limit(full):
 
 def test_the_deformed_square_is_that_of_the_method(full, records):
     for mode, component in ((1, "yy"), (2, "xy")):
-        definition = getattr(total_lagrangian, f"mode{mode}_field")
+        definition = figure.find(f"total_lagrangian.mode{mode}_field")
         state = records[f"mode{mode}", "tl"].isel(snapshot=1)
         places, field = centres(drawn(definition, full[f"tl_mode{mode}"]).axes[0])
         np.testing.assert_allclose(places, np.column_stack((state["x"].values, state["y"].values)))
         np.testing.assert_allclose(field.get_array(), state[f"stress_{component}"].values / 1e3)
-        assert definition.number != getattr(crack_field, f"mode{mode}_field").number
+        assert definition.number != figure.find(f"crack_field.mode{mode}_field").number

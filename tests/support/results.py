@@ -97,3 +97,8 @@ def grid(
 def change(rows: Rows, h: float, n: int, **metrics: float) -> Rows:
     """The rows with other values in one cell."""
     return [row | metrics if (row["h"], row["n"]) == (h, n) else row for row in rows]
+
+
+def every(rows: Rows, **metrics: Callable[[float, int], float]) -> Rows:
+    """The rows with these metrics replaced in all cells."""
+    return [row | {name: value(row["h"], row["n"]) for name, value in metrics.items()} for row in rows]

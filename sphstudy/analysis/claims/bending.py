@@ -21,7 +21,7 @@ SEEN_AT_WALL, SEEN_AT_END = 2e-5, 8e-5
 """Jags (m) that figures 4.7a and 4.7b would just show: a hundredth of their axes, 2 mm and 8 mm high."""
 
 PRONOUNCED = 10.0
-"""A boundary effect is so many times larger than what the middle of the span shows."""
+"""Smallest ratio of a boundary effect to the jags in the middle of the span."""
 
 REGULAR, IRREGULAR = 0.02, 0.05
 """Spread of nearest-neighbour distances (standard deviation over mean) of regular and irregular
@@ -46,13 +46,13 @@ def agreement(results: Results) -> Finding:
     error /= abs(scene.deflection * scene.L)
     angle = abs(results.value("end_angle_error", CASE, "grid"))
     least, most = ORDER_OF_A_TENTH
-    told = (
+    numbers = (
         f"centreline within {percent(error)} of the deflection, end angle {number(angle, 2)} degrees off "
         f"({number(abs(results.value('end_angle_error_2d', CASE, 'grid')), 2)} against 2-D elasticity)"
     )
     everything = error <= AGREES and least <= angle <= most
     cause = unstable_side(CASE["h"])
-    return finding(everything, error <= AGREES or angle <= most, told, cause)
+    return finding(everything, error <= AGREES or angle <= most, numbers, cause)
 
 
 @claim(
@@ -75,8 +75,8 @@ def boundary_effects(results: Results) -> Finding:
         for jag, least in ((wall, SEEN_AT_WALL), (end, SEEN_AT_END))
     ]
     millimetres = [number(1e3 * jag, 2) for jag in (wall, middle, end)]
-    told = "largest jag {} mm at the wall, {} mm in the middle, {} mm at the end".format(*millimetres)
-    return finding(all(seen), any(seen), told)
+    numbers = "largest jag {} mm at the wall, {} mm in the middle, {} mm at the end".format(*millimetres)
+    return finding(all(seen), any(seen), numbers)
 
 
 @claim(
@@ -100,7 +100,7 @@ def clumping(results: Results) -> Finding:
     regular = max(early.values()) <= REGULAR
     worst = late["bottom"] > max(late["top"], late["rest"])
     config = results.config(block="grid")
-    told = (
+    numbers = (
         f"n = {config.n}: spread at 11 s "
         + ", ".join(f"{percent(early[p])} {p}" for p in parts)
         + f"; at {config.scene.end_time:g} s "
@@ -114,4 +114,4 @@ def clumping(results: Results) -> Finding:
         cause += f"; the thesis shows n = {CASE['n']}, computed is n = {config.n}"
     grown = late["bottom"] >= 2.0 * early["bottom"]
     everything = regular and worst and late["bottom"] >= IRREGULAR
-    return finding(everything, regular and worst and grown, told, cause)
+    return finding(everything, regular and worst and grown, numbers, cause)

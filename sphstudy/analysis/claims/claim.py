@@ -1,6 +1,8 @@
-"""What a claim is: a sentence that somebody made, and the rule that checks it on stored results.
+"""What a claim is: a sentence that somebody wrote, and the rule that checks it on stored results.
 
-A study file names its claims by id; every module of `sphstudy.analysis.claims` is searched for them.
+A rule is a function in a module of `sphstudy.analysis.claims`, decorated by `claim`: it takes the Results
+of the study whose file names the claim's id, and returns a Finding, or raises Missing where the store
+lacks what it needs.
 """
 
 import importlib
@@ -30,7 +32,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Claim:
-    """A claim: id, what was said, where, and what the verdicts mean for it (keys: the first three)."""
+    """A claim: id, sentence, where it stands, and what each of the first three verdicts means for it."""
 
     id: str
     text: str
@@ -39,7 +41,7 @@ class Claim:
     rule: Callable[[Results], Finding]
 
     def check(self, results: Results) -> Finding:
-        """The finding; UNKNOWN, and why, if the store lacks what the rule needs or the rule fails."""
+        """The rule's finding; UNKNOWN and why, if the store lacks what it needs or it fails."""
         try:
             return self.rule(results)
         except Missing as missing:
@@ -53,7 +55,15 @@ class Claim:
 def claim(
     id: str, text: str, source: str, *, reproduced: str, partly: str, otherwise: str
 ) -> Callable[[Callable[[Results], Finding]], Claim]:
-    """Decorator: makes a Claim of its rule. `otherwise`: what `not reproduced` means."""
+    """Decorator: makes a Claim of its rule.
+
+    Parameters
+    ----------
+    id, text, source : str
+        Its name in study files, the sentence, and where it stands.
+    reproduced, partly, otherwise : str
+        What the verdicts `reproduced`, `partly` and `not reproduced` mean for it.
+    """
     meaning = {REPRODUCED: reproduced, PARTLY: partly, NOT: otherwise}
     return lambda rule: Claim(id, text, source, meaning, rule)
 
@@ -69,14 +79,14 @@ def every_claim() -> dict[str, Claim]:
 
 
 def find(id: str) -> Claim:
-    """The claim with this id. Raises ConfigurationError if there is none."""
+    """The claim with this id; raises ConfigurationError if there is none."""
     if id not in every_claim():
         raise ConfigurationError([unknown("claim", id, every_claim())])
     return every_claim()[id]
 
 
 def checked(results: Results) -> list[tuple[Claim, Finding]]:
-    """Every claim of the study, and of those that it includes and shows, with what came out."""
+    """Checks every claim of the study, and of those that it includes and shows."""
     names = dict.fromkeys([*study_file.members(results.name), *results.definition.shows])
     return [
         (found, found.check(results.other(name)))

@@ -72,13 +72,13 @@ def spikes(results: Results) -> Finding:
     loaded, unloaded = (float(case.loc[thesis, metric].iloc[0]) for case in (full, little))
     stress_driven = loaded >= VISIBLE > unloaded
     follows = tensile.min() > compressive.max()
-    told = (
+    numbers = (
         f"roughness of the cubic spline at 1.3: {percent(loaded)} at full load, {percent(unloaded)} at a "
         f"thousandth; growth with the load (kernel, h̃): {_listed(full, growth)}; at least "
         f"{number(tensile.min(), 3)} where W'' > 0, at most {number(compressive.max(), 3)} where W'' < 0"
     )
     cause = "" if follows else "the growth does not follow the sign of W'' alone"
-    return finding(stress_driven and follows, stress_driven, told, cause)
+    return finding(stress_driven and follows, stress_driven, numbers, cause)
 
 
 @claim(
@@ -106,7 +106,7 @@ def clumping(results: Results) -> Finding:
     below = grown["bottom"] > max(grown["top"], 1.0)
     stress_driven = unloaded - 1.0 < 0.1 * (grown["bottom"] - 1.0)
     follows = compressive.min() > tensile.max()
-    told = (
+    numbers = (
         f"n = {case['n']}, cubic spline at 1.7, spread at the end over that at 11 s: "
         f"{number(grown['bottom'], 3)} below, {number(grown['top'], 3)} above, {number(unloaded, 3)} "
         f"below at a thousandth of the load (to {percent(case['spacing_spread_bottom'])} and "
@@ -117,7 +117,7 @@ def clumping(results: Results) -> Finding:
     if not stress_driven:
         reasons.append("irregularity grows without load too, if less")
     everything = below and stress_driven and follows
-    return finding(everything, below and (stress_driven or follows), told, because(*reasons))
+    return finding(everything, below and (stress_driven or follows), numbers, because(*reasons))
 
 
 def _growth(point: pd.Series, side: str) -> float:
@@ -139,7 +139,7 @@ def antisymmetry(results: Results) -> Finding:
     metrics = {stress: f"stress_{stress}_parity_defect_ahead" for stress in ("xx", "yy")}
     points = _points(results, "mode2", list(metrics.values()))
     full, little = points["scene.K"].max(), points["scene.K"].min()
-    told, whole, somewhere = [], [], []
+    numbers, whole, somewhere = [], [], []
     for stress, metric in metrics.items():
         defects = points.pivot(index="h", columns=["scene.K", STRESS], values=metric)
         on, off = defects[full, points[STRESS].max()], defects[full, 0.0]
@@ -148,7 +148,7 @@ def antisymmetry(results: Results) -> Finding:
         tensile = bool(off[1.3] >= 2.0 * off[1.5])
         whole.append(bool(artificial.all()) or tensile)
         somewhere.append(bool(artificial.any()) or tensile)
-        told.append(
+        numbers.append(
             f"σ_{stress} at h̃ = {', '.join(f'{h:g}' for h in on.index)}: {_row(on)} with artificial "
             f"stress, {_row(off)} without; at a thousandth of the load on average {_row(unloaded)}"
         )
@@ -157,7 +157,7 @@ def antisymmetry(results: Results) -> Finding:
         "other, and pairs see each other round the tip on one side that do not on the other; the "
         "averages at a thousandth of the load say how much of the defects goes with the displacements"
     )
-    return finding(all(whole), any(somewhere), "; ".join(told), cause)
+    return finding(all(whole), any(somewhere), "; ".join(numbers), cause)
 
 
 def _row(values: Iterable[float]) -> str:

@@ -9,11 +9,11 @@ from sphstudy.analysis.claims.reading import (
     best_smoothing,
     choices,
     count,
+    elsewhere,
     falls,
     finding,
     whole_grid,
 )
-from sphstudy.analysis.claims.tensile_instability import conjecture
 from sphstudy.analysis.results import Results
 from sphstudy.text import number, percent
 
@@ -68,12 +68,12 @@ def displacement_norms(results: Results) -> Finding:
     )
     drop = {field: grid[40] - grid[60] for field, grid in grids.items()}
     faster = all(lost[1.9] > lost[1.3] for lost in drop.values())
-    told = f"fall in {fall} of {steps} steps; " + "; ".join(
+    numbers = f"fall in {fall} of {steps} steps; " + "; ".join(
         f"{field} smallest at h̃ = {choices(best_smoothing(grid))}, falls from n = 40 to 60 by "
         f"{number(1e6 * drop[field][1.3], 3)} µm (1.3), {number(1e6 * drop[field][1.9], 3)} µm (1.9)"
         for field, grid in grids.items()
     )
-    return finding(fall == steps and favoured and faster, fall == steps and favoured, told)
+    return finding(fall == steps and favoured and faster, fall == steps and favoured, numbers)
 
 
 @claim(
@@ -94,13 +94,13 @@ def stress_norms(results: Results) -> Finding:
     favoured = all(bool(best_smoothing(grids[field]).isin([1.3, 1.5]).all()) for field in normal)
     shear = grids["stress_xy"]
     worse = bool((shear.loc[1.3] > shear.loc[1.5]).all())
-    told = (
+    numbers = (
         f"fall in {fall} of {steps} steps; smallest at h̃: "
         + "; ".join(f"{field} {choices(best_smoothing(grids[field]))}" for field in normal)
         + "; stress_xy at 1.3 over 1.5: "
         + ", ".join(number(ratio, 3) for ratio in shear.loc[1.3] / shear.loc[1.5])
     )
-    found = finding(fall == steps and favoured and worse, fall == steps and (favoured or worse), told)
+    found = finding(fall == steps and favoured and worse, fall == steps and (favoured or worse), numbers)
     if found.verdict == REPRODUCED:
         return found
     inner = norms(results, normal, "rms_inner")
@@ -108,7 +108,7 @@ def stress_norms(results: Results) -> Finding:
     cause = (
         f"the few particles at the singular tip decide: without tip and frame smallest at h̃: {elsewhere}"
     )
-    return Finding(found.verdict, told, cause)
+    return Finding(found.verdict, numbers, cause)
 
 
 @claim(
@@ -126,7 +126,7 @@ def error_norms(results: Results) -> Finding:
     fall, _ = _falling(grids)
     lowest = {field: best_smoothing(grid) for field, grid in grids.items()}
     right = sum(int((best == 1.3).sum()) for best in lowest.values())
-    told = f"fall in {fall} of 40 steps; smallest at h̃ = 1.3 in {right} of 15"
+    numbers = f"fall in {fall} of 40 steps; smallest at h̃ = 1.3 in {right} of 15"
     others = [
         f"{field} at n = {n}: h̃ = {h:g}, there "
         f"{percent(1.0 - grids[field].at[h, n] / grids[field].at[1.3, n])} below that at 1.3"
@@ -135,7 +135,7 @@ def error_norms(results: Results) -> Finding:
         if h != 1.3
     ]
     cause = f"lower at another h̃: {because(*others)}"
-    return finding(fall == 40 and right == 15, fall == 40 and 2 * right > 15, told, cause)
+    return finding(fall == 40 and right == 15, fall == 40 and 2 * right > 15, numbers, cause)
 
 
 @claim(
@@ -153,25 +153,25 @@ def antisymmetry(results: Results) -> Finding:
         name: whole_grid(results, f"stress_{name}_parity_defect_ahead", CRACK) for name in ("xx", "yy")
     }
     seen = [float(grid.at[DRAWN["h"], DRAWN["n"]]) >= UNEQUAL for grid in grids.values()]
-    told = "; ".join(
+    numbers = "; ".join(
         f"σ{name} {percent(grid.at[DRAWN['h'], DRAWN['n']])} "
         f"(all cells {percent(grid.min(axis=None))} to {percent(grid.max(axis=None))})"
         for name, grid in grids.items()
     )
-    return finding(all(seen), any(seen), because(told, _what_breaks_it(results)))
+    return finding(all(seen), any(seen), because(numbers, _what_breaks_it(results)))
 
 
 def _what_breaks_it(results: Results) -> str:
     """In words: the defects at (40, 1.7) by load and artificial stress. Empty if they are not stored."""
-    told = []
+    numbers = []
     for load, words in ((35.8e3, "full load"), (35.8, "a thousandth of the load")):
         for stress, how in ((0.3, "with"), (0.0, "without")):
             settings = {"h": 1.7, "scene.K": load, "method.artificial_stress": stress}
             found = [
-                conjecture(results, "mode2", settings, f"stress_{name}_parity_defect_ahead")
+                elsewhere(results, "conjectures", "mode2", settings, f"stress_{name}_parity_defect_ahead")
                 for name in ("xx", "yy")
             ]
             values = [percent(value) for value in found if value is not None]
             if len(values) == 2:
-                told.append(f"{words}, {how} artificial stress {' and '.join(values)}")
-    return f"σxx and σyy at (40, 1.7): {'; '.join(told)}" if told else ""
+                numbers.append(f"{words}, {how} artificial stress {' and '.join(values)}")
+    return f"σxx and σyy at (40, 1.7): {'; '.join(numbers)}" if numbers else ""

@@ -36,7 +36,7 @@ def _values(results: Results, block: str, metric: str, **settings: float | str) 
     return found
 
 
-def _told(values: dict[float, float], words=number) -> str:
+def _by_h(values: dict[float, float], words=number) -> str:
     """Values with their h̃."""
     return ", ".join(f"{words(value)} (h̃ = {h:g})" for h, value in values.items())
 
@@ -65,13 +65,15 @@ def total_lagrangian_is_sound(results: Results) -> Finding:
     finite = all(c.judgement.outcome in (DONE, "degraded") for c in own)
     others = [c for c in cases if c.variant.startswith("thesis")]
     sound = sum(c.judgement.outcome == DONE for c in others)
-    told = f"{len(own) - len(bad)} of {len(own)} runs are done; of the thesis's {sound} of {len(others)}"
+    numbers = (
+        f"{len(own) - len(bad)} of {len(own)} runs are done; of the thesis's {sound} of {len(others)}"
+    )
     cause = "; ".join(
         f"{c.label}, h̃ = {c.h:g}: "
         + ", ".join(f"{b.bound.quantity} {_size(b.value)}" for b in c.judgement.breaches[:2])
         for c in bad
     )
-    return finding(not bad, finite, told, cause)
+    return finding(not bad, finite, numbers, cause)
 
 
 @claim(
@@ -87,8 +89,8 @@ def held_bar(results: Results) -> Finding:
     found = _values(results, "tension", "stress_share", scene__strain=0.01)
     other = _values(results, "tension_tl", "stress_share", scene__strain=0.01)
     lost = [found[h] < HELD < other[h] for h in (1.3, 1.5)]
-    told = f"stress left: {_told(found, signed)}; total Lagrangian {_told(other, signed)}"
-    return finding(all(lost), any(lost), told)
+    numbers = f"stress left: {_by_h(found, signed)}; total Lagrangian {_by_h(other, signed)}"
+    return finding(all(lost), any(lost), numbers)
 
 
 @claim(
@@ -107,15 +109,15 @@ def rotation(results: Results) -> Finding:
     )
     lost = all(v > LOST for v in plain.values()) and all(v < SOUND for v in total.values())
     saved = all(v < LOST for v in jaumann.values())
-    told = (
-        f"drift without spin terms {_told(plain, _size)}; with Jaumann's rate {_told(jaumann, _size)}; "
-        f"total Lagrangian {_told(total, _size)}"
+    numbers = (
+        f"drift without spin terms {_by_h(plain, _size)}; with Jaumann's rate {_by_h(jaumann, _size)}; "
+        f"total Lagrangian {_by_h(total, _size)}"
     )
     cause = (
         "probably uncorrected gradients, to which a rigid rotation looks like strain at the edges, where "
         "stress begins with or without spin terms"
     )
-    return finding(lost and saved, lost, told, cause)
+    return finding(lost and saved, lost, numbers, cause)
 
 
 @claim(
@@ -133,12 +135,12 @@ def sign_of_curvature(results: Results) -> Finding:
     pressed = _values(results, "compression", "spacing_smallest")
     unstable = stretched[1.3] < CLUMPED and pressed[1.7] < CLUMPED
     stable = stretched[1.7] >= CLUMPED and pressed[1.3] >= CLUMPED
-    told = f"stretched {_told(stretched, _size)}; compressed {_told(pressed, _size)}"
+    numbers = f"stretched {_by_h(stretched, _size)}; compressed {_by_h(pressed, _size)}"
     cause = (
         f"{unstable_side(1.3)}; {unstable_side(1.7)}; but the checkerboard that "
         "centred sums do not see knows no sign"
     )
-    return finding(unstable and stable, unstable, told, cause)
+    return finding(unstable and stable, unstable, numbers, cause)
 
 
 @claim(
@@ -163,8 +165,8 @@ def heun_lives_by_viscosity(results: Results) -> Finding:
         )
     gone = [status == "diverged" for status in outcomes["no_viscosity"].values()]
     fine = all(status == "done" for status in outcomes["viscosity"].values())
-    told = "; ".join(f"{block}: {_told(found, str)}" for block, found in outcomes.items())  # type: ignore[arg-type]
-    return finding(all(gone) and fine, any(gone) and fine, told)
+    numbers = "; ".join(f"{block}: {_by_h(found, str)}" for block, found in outcomes.items())  # type: ignore[arg-type]
+    return finding(all(gone) and fine, any(gone) and fine, numbers)
 
 
 @claim(
@@ -186,7 +188,7 @@ def rings(results: Results) -> Finding:
     thesis = broken["rings", 0.06] > 0 and broken["rings", 0.12] > 0
     total = broken["rings_tl", 0.06] == 0 and broken["rings_tl", 0.12] == 0
     repaired = broken["rings_repaired", 0.06] == 0 and broken["rings_repaired", 0.12] > 0
-    told = "; ".join(
+    numbers = "; ".join(
         f"{name} {broken[block, 0.06]:.0f} and {broken[block, 0.12]:.0f}"
         for block, name in (
             ("rings", "thesis"),
@@ -196,4 +198,4 @@ def rings(results: Results) -> Finding:
     )
     core = thesis and total
     cause = "artificial stress delays tearing, it does not prevent it" if core else ""
-    return finding(core and repaired, core, f"bonds broken at 0.06 and 0.12 c0: {told}", cause)
+    return finding(core and repaired, core, f"bonds broken at 0.06 and 0.12 c0: {numbers}", cause)

@@ -56,14 +56,14 @@ def _in_range(
     errors = whole_grid(results, metric, PLATE)
     right, shaky = sign * errors > 0.0, unstable(results, errors)
     outside = ~within(errors, *limits) & ~shaky
-    told = f"{count(right)} of {right.size} are {'positive' if sign > 0.0 else 'negative'}"
-    told += f"; all: {span(errors)}"
+    numbers = f"{count(right)} of {right.size} are {'positive' if sign > 0.0 else 'negative'}"
+    numbers += f"; all: {span(errors)}"
     if shaky.any(axis=None):
-        told += f"; without {cells(shaky)}, which are unstable: {span(errors.mask(shaky))}"
+        numbers += f"; without {cells(shaky)}, which are unstable: {span(errors.mask(shaky))}"
     if outside.any(axis=None):
-        told += f"; outside the range: {cells(outside)}"
+        numbers += f"; outside the range: {cells(outside)}"
     everything = everywhere(right) and not outside.any(axis=None)
-    return finding(everything, everywhere(right), told, "" if everything else cause(outside))
+    return finding(everything, everywhere(right), numbers, "" if everything else cause(outside))
 
 
 @claim(
@@ -109,14 +109,14 @@ def _amplitude_cause(results: Results, off: pd.DataFrame) -> str:
     """
     product = whole_grid(results, "amplitude_frequency_product", PLATE)
     lossless = (1.0 + whole_grid(results, "amplitude_error", PLATE)) / product - 1.0
-    told = ", ".join(
+    numbers = ", ".join(
         f"at ({n}, {h:g}) that is {signed(lossless.at[h, n])}, and "
         f"{signed(product.at[h, n] - 1.0)} by loss"
         for n in off
         for h in off.index
         if off.at[h, n]
     )
-    return f"the tip starts with a given speed, so without loss of energy A = v_tip(0)/ω; {told}"
+    return f"the tip starts with a given speed, so without loss of energy A = v_tip(0)/ω; {numbers}"
 
 
 @claim(
@@ -134,12 +134,12 @@ def smallest_errors(results: Results) -> Finding:
     where = {name: grid == least[name] for name, grid in errors.items()}
     lower, upper = ABOUT_3_PERCENT
     right = {name: lower <= value <= upper for name, value in least.items()}
-    told = "; ".join(f"{name} {percent(least[name])} at {cells(where[name])}" for name in ERRORS)
+    numbers = "; ".join(f"{name} {percent(least[name])} at {cells(where[name])}" for name in ERRORS)
     cause = because(
         "" if right["frequency"] else _frequency_cause(results),
         "" if right["amplitude"] else _amplitude_cause(results, where["amplitude"]),
     )
-    return finding(all(right.values()), any(right.values()), told, cause)
+    return finding(all(right.values()), any(right.values()), numbers, cause)
 
 
 @claim(
@@ -156,12 +156,12 @@ def trends(results: Results) -> Finding:
     fall = pd.concat([falls(whole_grid(results, f"{name}_error", PLATE)) for name in ERRORS], axis=1)
     smooth, rough = fall.drop(index=1.3), ~fall.loc[[1.3]]
     frequency = whole_grid(results, "frequency_error", PLATE).loc[1.3]
-    told = (
+    numbers = (
         f"fall in {count(smooth)} of {smooth.size} steps at h̃ = 1.5 to 1.9, grow in {count(rough)} of "
         f"{rough.size} at 1.3 (frequency: {', '.join(map(signed, frequency))})"
     )
     cause = because(unstable_side(1.3), kernel_test(results, 1.3))
-    return finding(everywhere(smooth) and everywhere(rough), everywhere(smooth), told, cause)
+    return finding(everywhere(smooth) and everywhere(rough), everywhere(smooth), numbers, cause)
 
 
 @claim(
@@ -179,13 +179,13 @@ def best_smoothing_radius(results: Results) -> Finding:
     means = {name: grid.mean(axis=1) for name, grid in errors.items()}
     best = [mean.idxmin() == 1.5 for mean in means.values()]
     wins = sum(int((best_smoothing(grid) == 1.5).sum()) for grid in errors.values())
-    told = "; ".join(
+    numbers = "; ".join(
         f"{name}: " + ", ".join(f"{percent(value)} ({h:g})" for h, value in mean.items())
         for name, mean in means.items()
     )
-    told = f"mean size over n: {told}; best in {wins} of 6 columns"
+    numbers = f"mean size over n: {numbers}; best in {wins} of 6 columns"
     cause = "best for the frequency at h̃ = " + choices(best_smoothing(errors["frequency"]))
-    return finding(all(best), any(best) or wins >= 3, told, cause)
+    return finding(all(best), any(best) or wins >= 3, numbers, cause)
 
 
 @claim(
@@ -203,13 +203,13 @@ def spikes(results: Results) -> Finding:
     bottom, top = (whole_grid(results, f"stress_roughness_{side}", PLATE) for side in ("bottom", "top"))
     right = {(n, h): (bottom.at[h, n] >= VISIBLE) == ((n, h) in SPIKED) for n, h in (*SPIKED, *CLEAN)}
     calm_above = all(top.at[h, n] < VISIBLE for n, h in right)
-    told = ", ".join(
+    numbers = ", ".join(
         f"{percent(bottom.at[h, n])} below and {percent(top.at[h, n])} above the axis at ({n}, {h:g})"
         for n, h in right
     )
-    told = because(f"roughness {told}", kernel_test(results, 1.3))
+    numbers = because(f"roughness {numbers}", kernel_test(results, 1.3))
     cause = because(unstable_side(1.3), unstable_side(1.5))
-    return finding(all(right.values()) and calm_above, all(right[cell] for cell in DRAWN), told, cause)
+    return finding(all(right.values()) and calm_above, all(right[cell] for cell in DRAWN), numbers, cause)
 
 
 @claim(
@@ -224,7 +224,7 @@ def spikes(results: Results) -> Finding:
 def disturbance(results: Results) -> Finding:
     """Roughness with artificial stress against roughness without."""
     without = whole_grid(results, "stress_roughness_bottom", PLATE)
-    disturbed, grown, told = [], [], []
+    disturbed, grown, numbers = [], [], []
     for n in PLATE:
         bottom, top = (
             results.value(f"stress_roughness_{side}", {"h": 1.5, "n": n}, "artificial")
@@ -233,8 +233,8 @@ def disturbance(results: Results) -> Finding:
         plain = float(without.at[1.5, n])
         disturbed.append(plain < VISIBLE <= bottom and bottom > top)
         grown.append(bottom > plain)
-        told.append(
+        numbers.append(
             f"n = {n}: {percent(bottom)} below, {percent(top)} above, {percent(plain)} below without it"
         )
     cause = "the thesis does not say at which resolution, h̃ and time it saw the disturbance"
-    return finding(any(disturbed), all(grown), "; ".join(told), cause)
+    return finding(any(disturbed), all(grown), "; ".join(numbers), cause)

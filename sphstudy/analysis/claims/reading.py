@@ -1,4 +1,6 @@
-"""What rules read from results: the thesis's grids, whole or not at all, and their numbers in words."""
+"""What rules read from results: the thesis's grids, their shapes, and numbers in words."""
+
+from typing import Any
 
 import pandas as pd
 
@@ -15,9 +17,21 @@ PLATE, CRACK = (9, 15, 21), (40, 50, 60)
 
 
 def whole_grid(results: Results, metric: str, resolutions: tuple[int, ...]) -> pd.DataFrame:
-    """A metric in the cells of the thesis's grid, h (index) and n (columns).
+    """A metric in the cells of the thesis's grid.
 
-    Raises Missing, naming the cells, if any has no value.
+    Parameters
+    ----------
+    results : Results
+        A study with that grid.
+    metric : str
+        Name of the metric.
+    resolutions : tuple of int
+        PLATE or CRACK.
+
+    Returns
+    -------
+    pandas.DataFrame
+        h (index) by n (columns). Missing is raised, and names the cells, if any has no value.
     """
     grid = results.grid(metric).reindex(index=list(SMOOTHING), columns=list(resolutions))
     if grid.isna().any(axis=None):
@@ -26,14 +40,14 @@ def whole_grid(results: Results, metric: str, resolutions: tuple[int, ...]) -> p
 
 
 def unstable(results: Results, grid: pd.DataFrame) -> pd.DataFrame:
-    """The cells of the grid, as a mask, that the study says sit in an instability."""
+    """The cells of a grid, as a mask, that the study calls unstable."""
     marks = [entry.holds for entry in results.definition.unstable]
     flags = [[any(holds({"h": h, "n": n}) for holds in marks) for n in grid.columns] for h in grid.index]
     return pd.DataFrame(flags, index=grid.index, columns=grid.columns)
 
 
 def falls(grid: pd.DataFrame) -> pd.DataFrame:
-    """Whether a size falls from each n to the next: h (index) by the n that is gone to (columns)."""
+    """Whether the size falls to each n from the one before: h (index) by n but the first (columns)."""
     return grid.abs().diff(axis=1).iloc[:, 1:] < 0.0
 
 
@@ -73,7 +87,7 @@ def everywhere(mask: pd.DataFrame) -> bool:
 
 
 def cells(mask: pd.DataFrame) -> str:
-    """The cells that a mask holds, as the thesis writes them: (n, h̃)."""
+    """The cells that are set in a mask, as the thesis writes them: (n, h̃)."""
     return ", ".join(f"({n}, {h:g})" for n in mask.columns for h in mask.index if mask.at[h, n])
 
 
@@ -100,13 +114,12 @@ def choices(best: pd.Series) -> str:
     return ", ".join(f"{h:g} (n = {n})" for n, h in best.items())
 
 
-def option(results: Results, scene: str, changed: str, metric: str) -> float | None:
-    """A metric where the study `choices` varies one setting ("key=value"; "": none) of a scene.
-
-    None if that is not in the store.
-    """
+def elsewhere(
+    results: Results, study: str, block: str, settings: dict[str, Any], metric: str
+) -> float | None:
+    """A metric of the point of another study with these settings in a block; None if it is not stored."""
     try:
-        return results.other("choices").value(metric, {"varied": changed}, scene)
+        return results.other(study).value(metric, settings, block)
     except Missing:
         return None
 

@@ -8,11 +8,11 @@ from sphstudy.analysis.claims.reading import (
     cells,
     choices,
     count,
+    elsewhere,
     everywhere,
     falls,
     finding,
     interval,
-    option,
     options,
     signed,
     span,
@@ -48,14 +48,16 @@ FROZEN = "method.retest_visibility=False"
 def _cause(results: Results, mode: int) -> str:
     """What G1 becomes by other choices, and with the visibility of the first configuration."""
     scene = f"mode{mode}"
-    base, frozen = (option(results, scene, changed, "G1_error") for changed in ("", FROZEN))
-    told = (
+    base, frozen = (
+        elsewhere(results, "choices", scene, {"varied": changed}, "G1_error") for changed in ("", FROZEN)
+    )
+    numbers = (
         "with visibility frozen in the first configuration instead of tested at every step G1 is "
         f"{signed(frozen)} instead of {signed(base)} at (40, 1.5)"
         if base is not None and frozen is not None
         else ""
     )
-    return because(told, options(results, scene, "G1_error"))
+    return because(numbers, options(results, scene, "G1_error"))
 
 
 @claim(
@@ -77,12 +79,12 @@ def propagation(results: Results) -> Finding:
     inside = within(errors, *PROPAGATION_RANGE[1])
     negative = everywhere(errors < 0.0)
     in_range, trend = everywhere(inside), everywhere(expected)
-    told = (
+    numbers = (
         f"{span(errors)}; {count(errors < 0.0)} of 12 negative, {count(inside)} in the range; the "
         f"size falls in {count(fall)} of {fall.size} steps of n; (40, 1.5): "
         f"{signed(errors.at[1.5, 40])}"
     )
-    return finding(in_range and trend, negative and (in_range or trend), told, _cause(results, 1))
+    return finding(in_range and trend, negative and (in_range or trend), numbers, _cause(results, 1))
 
 
 @claim(
@@ -106,12 +108,12 @@ def propagation_of_mode2(results: Results) -> Finding:
     in_range = everywhere(inside.drop(index=1.3)) and everywhere(inside.loc[[1.3], [50, 60]])
     best = best_smoothing(errors)
     core = everywhere(falls(errors).loc[[1.7, 1.9]]) and bool((best == 1.3).all())
-    told = (
+    numbers = (
         f"{span(errors)}; {count(inside)} of 12 in the range, positive: "
         f"{cells(errors > 0.0) or 'none'}; falls in {count(falls(errors))} of 8 steps of n; "
         f"smallest at h̃ = {choices(best)}; (40, 1.3): {signed(odd)}"
     )
-    return finding(core and in_range and exceptional, core, told, _cause(results, 2))
+    return finding(core and in_range and exceptional, core, numbers, _cause(results, 2))
 
 
 @claim(
@@ -133,19 +135,19 @@ def projection(results: Results) -> Finding:
     about_half = ABOUT_HALF[0] <= positive <= ABOUT_HALF[1]
     slight = bool(variation.between(*VARIATION[1]).all())
     everything = not off.any(axis=None) and about_half and bool((best == 1.5).all()) and slight
-    told = (
+    numbers = (
         f"{span(errors)}, {positive} of 12 positive; smallest at h̃ = {choices(best)}; varies over "
         "h̃ by " + ", ".join(map(percent, variation))
     )
     if off.any(axis=None):
-        told += f"; outside the range: {cells(off)}"
+        numbers += f"; outside the range: {cells(off)}"
     cause = because(
         f"over h̃ the error falls from {signed(errors.loc[1.3].mean())} to "
         f"{signed(errors.loc[1.9].mean())} (means over n) and its size is smallest where it passes "
         f"through zero; at h̃ = 1.5 it is still {signed(errors.loc[1.5].mean())}",
         options(results, "mode1", "G2_error"),
     )
-    return finding(everything, everywhere(errors.abs() < SMALL) and about_half, told, cause)
+    return finding(everything, everywhere(errors.abs() < SMALL) and about_half, numbers, cause)
 
 
 @claim(
@@ -165,9 +167,9 @@ def projection_of_mode2(results: Results) -> Finding:
     best, variation = best_smoothing(errors), errors.max() - errors.min()
     core = everywhere(errors > 0.0) and everywhere(falls(errors)) and bool((best == 1.9).all())
     slight = bool(variation.between(*VARIATION[2]).all())
-    told = (
+    numbers = (
         f"{span(errors)}; falls in {count(falls(errors))} of 8 steps of n; smallest at h̃ = "
         f"{choices(best)}; varies over h̃ by {', '.join(map(percent, variation))}"
     )
     inside = everywhere(within(errors, *PROJECTION_RANGE[2]))
-    return finding(core and slight and inside, core, told, options(results, "mode2", "G2_error"))
+    return finding(core and slight and inside, core, numbers, options(results, "mode2", "G2_error"))

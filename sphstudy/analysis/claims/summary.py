@@ -21,13 +21,13 @@ from sphstudy.metrics.roughness import VISIBLE
 from sphstudy.text import number, percent
 
 FAR_BETTER = 3.0
-"""Projection is far better than propagation where its error is so many times smaller."""
+"""Ratio of errors from which on projection is far better than propagation."""
 
 GOOD = 2.0
-"""h̃ = 1.5 is a good choice where its mean error is at most so many times that of the best h̃ ..."""
+"""Largest ratio of the mean error at h̃ = 1.5 to that at the best h̃ for a good choice ..."""
 
 NEGLIGIBLE = 0.01
-"""... or where it is a relative error below 1 %, which leaves nothing to choose."""
+"""... unless it is a relative error below 1 %, which leaves nothing to choose."""
 
 
 @claim(
@@ -57,7 +57,7 @@ def recommendations(results: Results) -> Finding:
     better = [everywhere(grid >= FAR_BETTER) for grid in ratios.values()]
     typical = [float(grid.stack().median()) for grid in ratios.values()]
     mostly = min(typical) >= FAR_BETTER and 2 * sum(good.values()) >= len(good)
-    told = (
+    numbers = (
         f"|G1 error|/|G2 error|: median {number(typical[0], 2)} in mode I, {number(typical[1], 2)} "
         f"in mode II; h̃ = 1.5 good in {sum(good.values())} of {len(good)} measures, best in "
         f"{sum(m.idxmin() == 1.5 for m in mean.values())}"
@@ -71,7 +71,7 @@ def recommendations(results: Results) -> Finding:
         *(f"{name} {number(regret[name], 2)} times the best" for name, fine in good.items() if not fine),
     )
     everything = all(better) and all(good.values())
-    return finding(everything, all(better) or all(good.values()) or mostly, told, cause)
+    return finding(everything, all(better) or all(good.values()) or mostly, numbers, cause)
 
 
 def _ratio(crack: Results) -> pd.DataFrame:
@@ -117,30 +117,30 @@ def treatment(results: Results) -> Finding:
     rough, smooth = treated["stress_roughness_bottom"], base["stress_roughness_bottom"]
     disturbed = bool(((rough >= VISIBLE) & (smooth < VISIBLE)).any())
     no_gain = treated["frequency_error"].abs().mean() >= base["frequency_error"].abs().mean()
-    told = "; ".join(
+    numbers = "; ".join(
         f"n = {n}: ω error {signed(treated['frequency_error'][n])} instead of "
         f"{signed(base['frequency_error'][n])}, roughness {percent(rough[n])} instead of "
         f"{percent(smooth[n])}"
         for n in PLATE
     )
-    told = because(f"h̃ = 1.5 with artificial stress: {told}", _cure(results))
-    return finding(disturbed and no_gain, disturbed or no_gain, told)
+    numbers = because(f"h̃ = 1.5 with artificial stress: {numbers}", _cure(results))
+    return finding(disturbed and no_gain, disturbed or no_gain, numbers)
 
 
 def _cure(results: Results) -> str:
     """In words: what artificial stress does at (15, 1.3), at full load and at hardly any.
 
-    Empty if the study `conjectures` has no such points in the store.
+    Empty if the study `conjectures` lacks these points.
     """
-    told = []
+    numbers = []
     for amplitude, words in (
         (FULL, "unstable without it"),
         (THOUSANDTH, "a thousandth of the amplitude"),
     ):
         treated, plain = (plate_test(results, 1.3, "cubic", stress, amplitude) for stress in (0.3, 0.0))
         if treated and plain:
-            told.append(
+            numbers.append(
                 f"{words}: ω error {signed(treated[0])} instead of {signed(plain[0])}, roughness "
                 f"{percent(treated[1])} instead of {percent(plain[1])}"
             )
-    return f"at (15, 1.3), {'; '.join(told)}" if told else ""
+    return f"at (15, 1.3), {'; '.join(numbers)}" if numbers else ""

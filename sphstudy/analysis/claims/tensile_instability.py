@@ -1,9 +1,7 @@
 """Which side of a bent body a kernel makes unstable, and what the study `conjectures` found about it."""
 
-from typing import Any
-
-from sphstudy.analysis.claims.reading import signed
-from sphstudy.analysis.results import Missing, Results
+from sphstudy.analysis.claims.reading import elsewhere, signed
+from sphstudy.analysis.results import Results
 from sphstudy.numerics.sph.kernel import KERNELS, curvature
 from sphstudy.text import number, percent
 
@@ -29,14 +27,6 @@ def unstable_side(smoothing: float) -> str:
     return f"{place} where h⁴ W'' = {number(bend, 2, sign=True)}, unstable in {side}"
 
 
-def conjecture(results: Results, block: str, settings: dict[str, Any], metric: str) -> float | None:
-    """A metric of one point of the study `conjectures`, None if it is not in the store."""
-    try:
-        return results.other("conjectures").value(metric, settings, block)
-    except Missing:
-        return None
-
-
 def plate_test(
     results: Results, smoothing: float, kernel: str, stress: float, amplitude: float
 ) -> tuple[float, float] | None:
@@ -50,25 +40,29 @@ def plate_test(
         "method.artificial_stress": stress,
         "scene.H0": amplitude,
     }
-    error = conjecture(results, "plate", settings, "frequency_error")
-    rough = conjecture(results, "plate", settings, "stress_roughness_bottom")
+    error, rough = (
+        elsewhere(results, "conjectures", "plate", settings, metric)
+        for metric in ("frequency_error", "stress_roughness_bottom")
+    )
     return None if error is None or rough is None else (error, rough)
 
 
 def kernel_test(results: Results, smoothing: float) -> str:
     """In words: the plate of 15 rows at this h̃ with other kernels, and with hardly any stress.
 
-    Empty if the study `conjectures` has no such points in the store.
+    Empty if the study `conjectures` lacks these points.
     """
     cases = [(_kernel_words(kernel, smoothing), kernel, FULL) for kernel in KERNELS]
     cases.append(("cubic kernel at a thousandth of the amplitude", "cubic", THOUSANDTH))
-    told = [
+    numbers = [
         f"{words} {signed(found[0])}, {percent(found[1])}"
         for words, kernel, amplitude in cases
         if (found := plate_test(results, smoothing, kernel, 0.0, amplitude))
     ]
     return (
-        f"ω error and roughness below the axis at (15, {smoothing:g}): {'; '.join(told)}" if told else ""
+        f"ω error and roughness below the axis at (15, {smoothing:g}): {'; '.join(numbers)}"
+        if numbers
+        else ""
     )
 
 

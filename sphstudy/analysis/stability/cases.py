@@ -14,7 +14,7 @@ from sphstudy.analysis.stability.judge import Judgement, judge
 from sphstudy.configuration.run_settings import RunConfig, flattened
 
 OUTCOMES = ("failed", "timeout", "interrupted", "running", "missing", "diverged", "degraded", "done")
-"""All outcomes, worst first: where two runs would share a place, the worse one has it."""
+"""All outcomes, worst first: of two runs in one place of the map, the worse one is shown."""
 
 
 @dataclass(frozen=True)
@@ -41,9 +41,12 @@ class Case:
 
 @lru_cache(maxsize=4)
 def judged(results: Results) -> list[Case]:
-    """Every run of a study and of those it includes, each once, in order, judged by its bounds.
+    """Judges every run of a study and of those that it includes, each once, in order.
 
-    Raises ConfigurationError if a file of bounds is wrong.
+    Raises
+    ------
+    ConfigurationError
+        If a file of bounds is wrong.
     """
     table = results.table.drop_duplicates("record")
     configs = {row: results.config_at(row) for row in table.index}
@@ -68,7 +71,7 @@ def judged(results: Results) -> list[Case]:
 
 
 def by_place(cases: list[Case]) -> pd.DataFrame:
-    """Index in `cases` over label (rows, in order) and (variant, h) (columns), -1 where there is none."""
+    """The map: index in `cases` over label (rows) and (variant, h) (columns), -1 where there is none."""
 
     def worst(place: pd.Series) -> int:
         return min(place, key=lambda k: OUTCOMES.index(cases[k].judgement.outcome))
@@ -87,7 +90,7 @@ def by_place(cases: list[Case]) -> pd.DataFrame:
 
 
 def usual(config: RunConfig) -> dict[str, Any]:
-    """Settings (flat keys) of method and solver that a scene has unless told otherwise."""
+    """The default settings (flat keys) of method and solver in a scene."""
     scene, method, solver = config.scene.name, config.method.name, config.solve.name
     found = {"method": catalogue.settings("method", method), "solve": catalogue.settings("solve", solver)}
     return flattened(catalogue.merged(found, catalogue.protocol(scene, method, solver)))
@@ -110,7 +113,7 @@ def _varied(points: list[dict[str, Any]], keys: tuple[str, ...]) -> list[str]:
 
 
 def _words(flat: dict[str, Any], keys: list[str]) -> str:
-    """Settings as one would say them: "artificial stress 0.3, jaumann"."""
+    """Settings in words: "artificial stress 0.3, jaumann"."""
     return ", ".join(_word(key.rpartition(".")[2].replace("_", " "), flat[key]) for key in keys)
 
 

@@ -1,4 +1,4 @@
-"""Signs of a run going bad, sample by sample, each so scaled that runs of any scene compare."""
+"""Signs of a run going bad, sample by sample, each scaled so that runs of all scenes compare."""
 
 from collections.abc import Callable
 
@@ -17,7 +17,20 @@ def wave_speed(run: xr.Dataset) -> float:
 
 
 def measure(run: xr.Dataset, name: str) -> np.ndarray:
-    """The indicator of that name at each sample [S]; NaN where there is no such thing."""
+    """An indicator of a record at each sample.
+
+    Parameters
+    ----------
+    run : xarray.Dataset
+        The record.
+    name : str
+        Key of INDICATORS.
+
+    Returns
+    -------
+    array [S]
+        Values (1); NaN where the scene has nothing to measure.
+    """
     return INDICATORS[name][1](run)
 
 
@@ -26,8 +39,8 @@ def _history(run: xr.Dataset, name: str) -> np.ndarray:
 
 
 def _energy_gain(run: xr.Dataset) -> np.ndarray:
-    """Over the most put in during the whole run: while little has been put in, the work of the
-    constraints between two samples is not known well enough to be compared with.
+    """Over the most energy put in during the whole run: early on, little has been put in, and samples do
+    not give the work of the constraints accurately enough.
     """
     columns = ("time", "kinetic_energy", "strain_energy", "constraint_power")
     found, put_in = energies(*(_history(run, name) for name in columns))

@@ -15,10 +15,10 @@ DONE, DEGRADED, DIVERGED = "done", "degraded", "diverged"
 
 @dataclass(frozen=True)
 class Breach:
-    """A bound that a run does not keep.
+    """A bound that a run breaks.
 
     time: of the first sample outside (s); of a metric, the end of the run. value: the one farthest
-    outside; NaN for a metric that the run has no number for.
+    outside; NaN if the run lacks the metric.
     """
 
     bound: Bound
@@ -30,8 +30,8 @@ class Breach:
 class Judgement:
     """outcome: "done" inside all bounds, "degraded" outside one, else the status of the record.
 
-    breaches: earliest first. end: time of the last sample (s), NaN if there is none. message: what the
-    record says of how it ended. unjudged: bounds of quantities that the record knows nothing of.
+    breaches: earliest first. end: time of the last sample (s), NaN if there is none. message: the
+    record's. unjudged: bounds of quantities that the record lacks.
     """
 
     outcome: str
@@ -42,14 +42,22 @@ class Judgement:
 
     @property
     def time(self) -> float:
-        """When it first was outside a bound, or when it diverged (s); NaN if it is done."""
+        """When it first broke a bound, or diverged (s); NaN if it is done."""
         if self.breaches:
             return self.breaches[0].time
         return self.end if self.outcome == DIVERGED else math.nan
 
 
 def judge(run: xr.Dataset | None, bounds: list[Bound]) -> Judgement:
-    """Judges a record, or None for one that is not there, by the bounds of its point."""
+    """Judges a run.
+
+    Parameters
+    ----------
+    run : xarray.Dataset or None
+        Its record; None if it is not stored.
+    bounds : list of Bound
+        Those of its point.
+    """
     status = "missing" if run is None else STATUS[int(run["status"])]
     if run is None or status not in (DONE, DIVERGED):
         return Judgement(status, (), math.nan, "" if run is None else run.attrs["message"])
@@ -71,7 +79,7 @@ def judge(run: xr.Dataset | None, bounds: list[Bound]) -> Judgement:
 
 
 def _values(run: xr.Dataset, bound: Bound, times: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
-    """Values that are judged, and their times (s); None where there is nothing to judge."""
+    """The values of a bound's quantity, None if the record has none; and their times (s)."""
     if bound.indicator:
         values = indicators.measure(run, bound.indicator) if times.size else np.empty(0)
         return (None, times) if np.isnan(values).all() else (values, times)

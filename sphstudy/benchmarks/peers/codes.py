@@ -11,7 +11,7 @@ from typing import Any
 class Peer:
     """A program in an environment of its own.
 
-    installs: arguments of `pip install`, one call after the other; module: what must be importable then.
+    installs: arguments of `pip install`, one call after the other; module: must be importable afterwards.
     """
 
     name: str
@@ -72,22 +72,8 @@ CODES = (
         0.8,
         settings={"method": "thesis"},
     ),
-    Code(
-        "sphstudy tl 1.3",
-        f"{_TOTAL}, $\\tilde h=1.3$",
-        THIS,
-        1.3,
-        0.8,
-        settings={"method": "tl"},
-    ),
-    Code(
-        "sphstudy tl 1.5",
-        f"{_TOTAL}, $\\tilde h=1.5$",
-        THIS,
-        1.5,
-        0.8,
-        settings={"method": "tl"},
-    ),
+    Code("sphstudy tl 1.3", f"{_TOTAL}, $\\tilde h=1.3$", THIS, 1.3, 0.8, settings={"method": "tl"}),
+    Code("sphstudy tl 1.5", f"{_TOTAL}, $\\tilde h=1.5$", THIS, 1.5, 0.8, settings={"method": "tl"}),
     Code(
         "sphstudy modes",
         f"{_TOTAL}, $\\tilde h=1.3$, modes",

@@ -35,7 +35,7 @@ def is_complete(peer: Peer, folder: Path) -> bool:
 
 
 def create(peer: Peer, folder: Path) -> None:
-    """Makes the environment; <folder>/install.log tells how. Raises SetupFailed."""
+    """Makes the environment and logs it in <folder>/install.log. Raises SetupFailed."""
     log = folder / "install.log"
     venv.create(folder / "environment", with_pip=True)
     with log.open("w") as lines:
@@ -55,15 +55,15 @@ def _call(command: list[str], lines: IO, step: str, log: Path, environment: dict
 
 
 def variables(folder: Path) -> dict[str, str]:
-    """Environment variables for a peer: its own libraries; one thread, as all have."""
+    """Environment variables for a peer: its own libraries, and one thread as for every code."""
     one = {f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
     return one | {"LD_LIBRARY_PATH": str((folder / "environment" / "lib").resolve())}
 
 
 def ensure(peer: Peer, folder: Path, make: Callable[[Peer, Path], None] = create) -> bool:
-    """The environment is there and complete afterwards; returns whether it was made now.
+    """Makes a peer's environment in an empty folder unless it is complete; returns whether it was made.
 
-    Raises SetupFailed, also for whatever else goes wrong on the way.
+    Raises SetupFailed, whatever goes wrong on the way.
     """
     if is_complete(peer, folder):
         return False

@@ -17,7 +17,7 @@ from sphstudy.benchmarks.peers.plate import SHORT, Plate
 from sphstudy.metrics.oscillation import fit_damped_sine
 
 SHARE = 0.9
-"""Of its own stability limit, at which a code is run besides its usual setting."""
+"""Share of its own stability limit at which a code is run besides its usual setting."""
 
 CHEAP = 20.0
 """CPU seconds above which a run is not repeated."""
@@ -49,12 +49,12 @@ class Case:
 
     @property
     def name(self) -> str:
-        """For people."""
+        """Code, resolution and setting, for people."""
         return f"{self.code.name}, n={self.plate.config.n}, {self.setting}"
 
     @property
     def cpu_seconds(self) -> float:
-        """Median of what was measured."""
+        """Median of the repeats [s]; NaN without any."""
         return statistics.median(self.seconds) if self.seconds else math.nan
 
     def frequency(self) -> tuple[float, float]:
@@ -87,7 +87,7 @@ def settings(code: Code, plate: Plate, courant: float, duration: float, folder: 
 
 
 def limit(code: Code, plate: Plate, guess: float, launch: Launch, folder: Path) -> float:
-    """Its largest stable C, found by short runs, or found before. Raises NoLimit."""
+    """The largest stable C of a code, from short runs or from its cache. Raises NoLimit."""
     cache = folder / code.peer / "limits.json"
     known = json.loads(cache.read_text()) if cache.exists() else {}
     key = json.dumps([code.name, code.h, code.columns, code.settings, plate.config.n])

@@ -20,7 +20,7 @@ SHORT = 400
 """Steps of a run that tells whether a time step is stable."""
 
 GROWTH = 10.0
-"""A run whose largest speed at its end is more than so many times the tip's first speed has blown up."""
+"""Largest speed at the end of a run over the tip's first speed, above which the run has blown up."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Plate:
     exact: Reference
 
     def body(self, columns: int, folder: Path) -> Path:
-        """File of its particles with so many clamped columns."""
+        """File (npz) in the folder with the plate's particles, given the number of clamped columns."""
         path = folder / f"plate-n{self.config.n}-clamped{columns}.npz"
         path.parent.mkdir(parents=True, exist_ok=True)
         problem = scene.build(_config(self.config.n, columns))
@@ -54,7 +54,7 @@ class Plate:
 
     @property
     def material(self) -> dict[str, Any]:
-        """What drivers are told of it."""
+        """The material and the shape, for drivers."""
         own = self.config.scene
         return {name: getattr(own, name) for name in ("E", "nu", "rho", "L", "slenderness")}
 

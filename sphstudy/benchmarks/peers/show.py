@@ -4,45 +4,41 @@ from itertools import cycle
 from pathlib import Path
 from typing import Any
 
-import matplotlib.style
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from rich.box import SIMPLE_HEAD
-from rich.table import Table
 
+from sphstudy import console
+from sphstudy.benchmarks.figures import write_figure
 from sphstudy.benchmarks.peers.dataset import STATUS
-from sphstudy.console import console
+from sphstudy.benchmarks.tables import table
 from sphstudy.report.drawing import TEXT_WIDTH, plain_logarithmic
-from sphstudy.report.figure import STYLE
 from sphstudy.report.series import PERCENT
-from sphstudy.text import number
 
-_COLUMNS = {
-    "error (%)": lambda point: f"{PERCENT * float(point['frequency_error_2d']):+.3f}",
-    "CPU (s)": lambda point: number(float(point["cpu_seconds"])),
-    "repeats": lambda point: str(int(np.isfinite(point["cpu_seconds_repeat"]).sum())),
-    "steps": lambda point: number(float(point["steps"])),
-    "particles": lambda point: number(float(point["particles"])),
-    "Δt (s)": lambda point: number(float(point["time_step"])),
-    "C": lambda point: number(float(point["courant"])),
-    "of limit": lambda point: number(float(point["limit_share"])),
-}
+_COLUMNS = (
+    "code",
+    "n",
+    "setting",
+    "status",
+    "frequency_error_2d",
+    "cpu_seconds",
+    "repeats",
+    "steps",
+    "particles",
+    "time_step",
+    "courant",
+    "limit_share",
+)
 
 
 def print_table(found: xr.Dataset) -> None:
-    """A line a point, then releases and settings of each code."""
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for name in ("code", "n", "setting", "status", *_COLUMNS):
-        table.add_column(name, justify="left" if name == "code" else "right")
-    for i in range(found.sizes["point"]):
-        point = found.isel(point=i)
-        done = STATUS[int(point["status"])] == "done"
-        labels = [str(point[name].item()) for name in ("code", "n", "setting")]
-        own = [show(point) if done or name != "error (%)" else "–" for name, show in _COLUMNS.items()]
-        table.add_row(*labels, STATUS[int(point["status"])], *own)
-    console().print(table)
+    """Prints a line for each point of the dataset, then releases and settings of each code."""
+    shown = found.assign(
+        status=("point", [STATUS[status] for status in found["status"].values]),
+        repeats=found["cpu_seconds_repeat"].notnull().sum("repeat"),
+    )
+    console.print_table(table("", shown, "point", _COLUMNS))
     for code in dict.fromkeys(found["code"].values):
         points = found.isel(point=np.flatnonzero(found["code"].values == code))
         print(f"{code}: {points['versions'].values[0]}")
@@ -87,10 +83,5 @@ def figure(found: xr.Dataset) -> Figure:
 
 
 def draw(found: xr.Dataset, folder: Path) -> Path:
-    """Writes the figure as PNG and PDF; returns the path of the PNG."""
-    path = folder / "peers.png"
-    with matplotlib.style.context(STYLE):
-        drawing = figure(found)
-        for file in (path, path.with_suffix(".pdf")):
-            drawing.savefig(file)
-    return path
+    """Writes the figure as PNG, whose path is returned, and PDF."""
+    return write_figure(figure, found, folder / "peers.png")

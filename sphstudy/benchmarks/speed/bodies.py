@@ -15,10 +15,10 @@ from sphstudy.numerics.solvers.system import System
 from sphstudy.numerics.sph.kernel import KERNELS
 
 PERTURBATION = 0.1
-"""Of the spacing: how far particles of a perturbed lattice stand off it, at most, along each axis."""
+"""Largest distance of particles of a perturbed lattice from their sites along each axis, in spacings."""
 
 LOAD_STEPS = 100_000
-"""Steps in which driven particles would reach the full load: more than any measurement takes."""
+"""Steps in which driven particles would reach the full load: more than any measurement makes."""
 
 LATTICE, PERTURBED, SHUFFLED = "lattice", "perturbed", "shuffled"
 
@@ -87,7 +87,10 @@ def arranged(problem: Problem, arrangement: str, seed: int = 1) -> Problem:
 
 
 def made(hydra: Session, case: Case, threads: int = 1) -> Made:
-    """The system of a case, on threads. Raises ConfigurationError if its settings are not valid."""
+    """The system of a case, whose sums over pairs are shared by threads.
+
+    Raises ConfigurationError if settings are not valid, RuntimeError if the first stage cannot begin.
+    """
     (point,), _ = hydra.points(list(case.settings), sweep=False)
     config = point.config
     scene, method = scene_module(config.scene.kind), method_module(config.method.kind)

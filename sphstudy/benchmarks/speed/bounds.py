@@ -1,4 +1,4 @@
-"""What the measurements are meant to reach (bounds.yaml), beside what they reach."""
+"""Bounds of the measurements (bounds.yaml), and the measurements beside them."""
 
 from dataclasses import dataclass
 from functools import cache
@@ -27,7 +27,7 @@ class Bound:
 
 @dataclass(frozen=True)
 class Reached:
-    """A measurement beside its bound. remark: what else has to be known to judge it."""
+    """A measurement beside its bound. remark: what a reader needs besides to judge it."""
 
     label: str
     bound: Bound

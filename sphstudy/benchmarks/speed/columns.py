@@ -1,4 +1,4 @@
-"""Variables of the dataset of `study speed`: name, units, long_name, attribute of what is measured."""
+"""Variables of the dataset of `sphstudy speed`: name, units, long_name, attribute of a measurement."""
 
 Column = tuple[str, str, str, str]
 
@@ -22,19 +22,14 @@ RATES: tuple[Column, ...] = (
     ("step_time_spread", "1", "distance between the quartiles over the median", "spread"),
     ("pair_time", "ns", "CPU time per unordered pair held and evaluation", "pair_time"),
     ("directed_pair_time", "ns", "the same per directed pair", "directed_pair_time"),
-    (
-        "interacting_pair_time",
-        "ns",
-        "the same per unordered pair in the support",
-        "interacting_pair_time",
-    ),
+    ("interacting_pair_time", "ns", "the same per pair in the support", "interacting_pair_time"),
     ("particle_steps", "s-1", "particles times steps per CPU second", "particle_steps"),
 )
 
 SCALINGS: tuple[Column, ...] = (
-    ("scaling_workers", "1", "what shares the work", "workers"),
+    ("scaling_workers", "1", "threads or processes", "workers"),
     ("speedup", "1", "wall time with one worker over that with two, median", "speedup"),
-    ("control_speedup", "1", "the same of arithmetic without memory", "control_speedup"),
+    ("control_speedup", "1", "that ratio for arithmetic without memory", "control_speedup"),
 )
 
 STARTS: tuple[Column, ...] = (

@@ -17,7 +17,7 @@ from sphstudy.store.provenance import provenance
 
 
 def dataset(found: Measurements, settings: Settings) -> xr.Dataset:
-    """All measurements: dimensions rate, scaling, start, run, bound, part, flat, if it has any."""
+    """All measurements; dimensions rate, scaling, start, run, bound, part, flat, as far as measured."""
     flat = list(flatness(found).items())
     tables: dict[str, tuple[Sequence[Any], tuple[Column, ...], list[str]]] = {
         "rate": (found.rates, RATES, [r.case.label for r in found.rates]),
@@ -50,7 +50,7 @@ def _columns(dimension: str, rows: Sequence[Any], columns: tuple[Column, ...]) -
 
 
 def _rounds(found: Measurements) -> dict[str, Any]:
-    """What was taken in every round, NaN where a measurement had fewer."""
+    """Times of every round, NaN where a measurement had fewer rounds."""
     variables = {}
     several: dict[str, tuple[tuple[str, ...], list[np.ndarray], str]] = {
         "step_times": (("rate",), [r.seconds for r in found.rates], "CPU time of a step in each round"),

@@ -2,9 +2,10 @@
 
 import time
 from collections.abc import Callable, Sequence
-from typing import Protocol
 
 import numpy as np
+
+from sphstudy.numerics.solvers.system import System
 
 Clock = Callable[[], float]
 
@@ -12,7 +13,7 @@ Clock = Callable[[], float]
 def interleaved(
     actions: Sequence[Callable[[], object]], rounds: int, clock: Clock = time.process_time
 ) -> np.ndarray:
-    """Seconds [actions, rounds] that each action takes in each round, by the clock.
+    """Seconds [actions, rounds] that each action takes in each round, by the clock (s).
 
     Every round begins one action later than the one before, so that none always follows the same other.
     """
@@ -25,21 +26,14 @@ def interleaved(
     return seconds
 
 
-class Advancing(Protocol):
-    """What can be stepped (solve.system.System)."""
-
-    def advance(self, begin: int, end: int) -> tuple[int, str]:
-        """Steps from number `begin` to `end`; returns steps taken in all, and what is wrong, or ""."""
-
-
 class Stepper:
     """A system that takes the same number of steps whenever it is called, going on from where it is.
 
     steps: of one call, as many as fill a slice of time. wrong: why the system stopped, or "".
     """
 
-    def __init__(self, system: Advancing, slice_seconds: float, clock: Clock = time.process_time):
-        """Takes a step first, which compiles and fetches all, then finds out how long one takes."""
+    def __init__(self, system: System, slice_seconds: float, clock: Clock = time.process_time):
+        """Takes a step first, which compiles and fills caches, then measures how long one takes."""
         self._system, self._done, self.wrong, self.steps = system, 0, "", 1
         self()
         spent = self._timed(clock)

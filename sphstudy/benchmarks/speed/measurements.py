@@ -1,4 +1,4 @@
-"""All that `study speed` measures, part by part."""
+"""All that `sphstudy speed` measures, part by part."""
 
 import os
 import time
@@ -20,8 +20,8 @@ COPIES = 3
 
 @dataclass(frozen=True)
 class Part:
-    """What measuring one part took: CPU seconds in this process and its children, and of these compiling
-    in this process; wall seconds.
+    """Cost of measuring one part: CPU seconds of this process and its children, of which it compiled, and
+    wall seconds.
     """
 
     name: str
@@ -32,7 +32,7 @@ class Part:
 
 @dataclass
 class Measurements:
-    """Everything measured. remarks: what could not be measured, and why."""
+    """All measurements. remarks: what could not be measured, and why."""
 
     rates: list[Rate] = field(default_factory=list)
     scalings: list[Scaling] = field(default_factory=list)
@@ -43,7 +43,7 @@ class Measurements:
 
 
 def measure(hydra: Session, settings: Settings, say: Callable[[str], object]) -> Measurements:
-    """Measures the parts that the settings name; says before each what it is."""
+    """Measures the parts that the settings name; calls say(name and meaning) before each."""
     found = Measurements()
     for name in settings.parts:
         say(f"{name}: {PARTS[name]}")

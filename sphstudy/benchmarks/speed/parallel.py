@@ -23,7 +23,7 @@ from sphstudy.store.job import Job
 from sphstudy.store.store import Store
 
 CONTROL_SECONDS = 1.0
-"""Of the control beside sweeps, on one core."""
+"""Wall time of the control beside sweeps, on one core (s)."""
 
 
 @dataclass(frozen=True)
@@ -46,12 +46,12 @@ class Scaling:
 
     @property
     def control_speedup(self) -> float:
-        """The same of the control: 2 where two cores were there."""
+        """That ratio for the control: 2 where two cores were free."""
         return float(np.median(self.control[0] / self.control[1]))
 
 
 class Control:
-    """Two equal portions of arithmetic in registers, about so many seconds together on one core."""
+    """Two equal portions of arithmetic in registers, together about `seconds` on one core."""
 
     def __init__(self, seconds: float):
         self._iterations = 20_000
@@ -89,7 +89,7 @@ def compared(
 
 
 def threads(hydra: Session, n: int, rounds: int, slice_seconds: float) -> tuple[list[Scaling], str]:
-    """One and two threads on a plate with n rows; and what is to be said where there is one core only."""
+    """One and two threads on a plate with n rows; and a remark where there is one core only."""
     if numba.config.NUMBA_NUM_THREADS < 2:  # type: ignore[attr-defined]
         return [], "threads: not measured, there is one core"
     numba.set_num_threads(2)
@@ -116,7 +116,7 @@ def _failed(job, outcome: str, why: str) -> None:
 
 
 def processes(hydra: Session, settings: tuple[str, ...], jobs: int, rounds: int) -> list[Scaling]:
-    """A sweep of so many equal runs in one process and in two, launched as every sweep is.
+    """A sweep of `jobs` equal runs in one process and in two, launched as every sweep is.
 
     The runs differ in their seed, which these scenes do not use, so that each leaves its own record.
     """

@@ -10,7 +10,7 @@ from sphstudy.benchmarks.speed.interleave import Stepper, interleaved
 from sphstudy.configuration.composition import Session
 
 NANOSECONDS = 1e9
-"""In a second."""
+"""Nanoseconds of a second."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Rate:
 
     @property
     def overrides(self) -> str:
-        """What makes the configuration, as on the command line."""
+        """Settings of the configuration, as on the command line."""
         return " ".join(self.case.settings)
 
     @property
@@ -76,9 +76,9 @@ def measured(
 ) -> list[Rate]:
     """Times the cases in turns, each round about `slice_seconds` of CPU a case, one step at least.
 
-    `copies`: systems of each case that share a round's time. Where arrays happen to lie in memory changes
-    the time of one and the same compiled code, by a fifth now and then, and the same in all rounds.
-    Raises ConfigurationError if settings of a case are not valid.
+    `copies`: systems of each case that share a turn. Where arrays happen to lie in memory changes the
+    time of the same compiled code, now and then by a fifth, and alike in all rounds. Raises
+    ConfigurationError if settings of a case are not valid.
     """
     systems = [made(hydra, case) for _ in range(copies) for case in cases]
     steppers = [Stepper(one.system, slice_seconds / copies) for one in systems]

@@ -1,8 +1,8 @@
-"""What `sphstudy study speed` takes, and what is answered to anything else."""
+"""What `sphstudy speed` measures, and its settings."""
 
 from dataclasses import dataclass
 
-from sphstudy.errors import ConfigurationError
+from sphstudy.errors import ConfigurationError, unknown
 
 PARTS = {
     "forms": "time per pair on lattices, cracked, perturbed, in random order",
@@ -14,8 +14,6 @@ PARTS = {
     "runs": "whole runs: one period of the plate, modes, equilibrium",
 }
 """What is measured, in this order."""
-
-_KEYS = ("quick", "results", "rounds", "parts")
 
 
 @dataclass(frozen=True)
@@ -36,31 +34,27 @@ class Settings:
         return 0.03 if self.quick else 0.2
 
 
-def parsed(overrides: list[str]) -> Settings:
-    """The settings that key=value overrides make.
+def chosen(options: dict[str, str]) -> Settings:
+    """The settings that options of the command line make.
 
-    Raises ConfigurationError with a line for each that is wrong.
+    Parameters
+    ----------
+    options : dict
+        Values of quick, results, rounds and parts, as far as they are given.
+
+    Raises
+    ------
+    ConfigurationError
+        With a line for each that is wrong.
     """
-    values: dict[str, str] = {}
     complaints = []
-    for override in overrides:
-        key, _, value = override.partition("=")
-        if key not in _KEYS:
-            complaints.append(f"{override}: study speed takes {', '.join(f'{k}=' for k in _KEYS)}")
-        elif key in values:
-            complaints.append(f"{override}: {key} is given twice")
-        values[key] = value
-    parts = tuple(dict.fromkeys(values.get("parts", ",".join(PARTS)).strip("[]").split(",")))
-    if wrong := [part for part in parts if part not in PARTS]:
-        complaints.append(f"parts={','.join(wrong)}: there is {', '.join(PARTS)}")
-    if (quick := values.get("quick", "false")) not in ("true", "false"):
-        complaints.append(f"quick={quick}: should be true or false")
-    rounds = values.get("rounds", "3" if quick == "true" else "5")
+    parts = tuple(dict.fromkeys(options.get("parts", ",".join(PARTS)).strip("[]").split(",")))
+    complaints += [unknown("part", part, PARTS) for part in parts if part not in PARTS]
+    quick = options.get("quick") == "true"
+    rounds = options.get("rounds", "3" if quick else "5")
     if not (rounds.isascii() and rounds.isdigit() and 1 <= int(rounds) <= 1000):
         complaints.append(f"rounds={rounds}: should be a whole number from 1 to 1000")
-    if not (results := values.get("results", "results")):
-        complaints.append("results=: should be a folder")
     if complaints:
         raise ConfigurationError(complaints)
     ordered = tuple(part for part in PARTS if part in parts)
-    return Settings(quick == "true", results, int(rounds), ordered)
+    return Settings(quick, options.get("results", "results"), int(rounds), ordered)

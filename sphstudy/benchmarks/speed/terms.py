@@ -1,4 +1,4 @@
-"""What each term of a method costs, from the dataset of `study speed`."""
+"""What each term of a method costs, from the dataset of `sphstudy speed`."""
 
 from typing import NamedTuple
 
@@ -25,7 +25,7 @@ class TermCost(NamedTuple):
 
     @property
     def cost(self) -> float:
-        """What the term costs, beside a model that never had it [ns]."""
+        """Cost of the term over a model that never had it [ns]."""
         return self.full.median - self.never.median
 
     @property

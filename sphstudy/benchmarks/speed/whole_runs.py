@@ -1,4 +1,4 @@
-"""Whole runs as a user has them: CPU time without compilation, as their records tell."""
+"""Whole runs as a user makes them: CPU time without compilation, from their records."""
 
 import tempfile
 from dataclasses import dataclass, replace
@@ -27,7 +27,7 @@ RUNS = {
 
 @dataclass(frozen=True)
 class WholeRun:
-    """seconds [rounds]: CPU time of building and solving, without compiling, metrics and files."""
+    """A timed run. seconds [rounds]: CPU time of building and solving, not of compiling or files."""
 
     label: str
     settings: str
@@ -37,12 +37,12 @@ class WholeRun:
 
     @property
     def median(self) -> float:
-        """Of the rounds [s]."""
+        """Median of the rounds [s]."""
         return float(np.median(self.seconds))
 
 
 def runs(hydra: Session, rounds: int) -> list[WholeRun]:
-    """The runs in turns, once before they count, so that all is compiled."""
+    """The runs in turns, after a first round that does not count, in which all is compiled."""
     points = [hydra.points(list(settings), sweep=False)[0][0] for settings, _ in RUNS.values()]
     seconds = np.full((len(RUNS), rounds + 1), np.nan)
     outcome = [""] * len(RUNS)

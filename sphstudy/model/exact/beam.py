@@ -7,14 +7,27 @@ ROOT = 1.8751
 
 
 def fundamental_frequency(youngs_modulus: float, density: float, length: float, height: float) -> float:
-    """ω0 = (α0/L)² D √(E/(12ρ)) of a clamped-free beam of full height D [rad/s] (3.1)."""
+    """ω0 = (α0/L)² D √(E/(12ρ)) of a clamped-free beam (3.1).
+
+    Parameters
+    ----------
+    youngs_modulus, density : float
+        E (Pa) and ρ (kg/m³).
+    length, height : float
+        L and full height D (m).
+
+    Returns
+    -------
+    float
+        Angular frequency (rad/s).
+    """
     return (ROOT / length) ** 2 * height * np.sqrt(youngs_modulus / (12.0 * density))
 
 
 def thin_plate_frequency(
     youngs_modulus: float, poisson_ratio: float, density: float, length: float, height: float
 ) -> float:
-    """ω1 of a clamped-free thin plate in plane strain [rad/s]: a beam with E/(1 - ν²)."""
+    """ω1 of a clamped-free thin plate in plane strain [rad/s]: as of a beam, with E/(1 - ν²) for E."""
     return fundamental_frequency(youngs_modulus / (1.0 - poisson_ratio**2), density, length, height)
 
 
@@ -31,9 +44,23 @@ def mode_shape(x: np.ndarray | float, length: float) -> np.ndarray:
 
 
 def bent_centreline(x: np.ndarray, end_displacement: float, length: float, spacing: float) -> np.ndarray:
-    """u_y(x) [m] of a clamped beam whose last particles, at length - spacing/2, are moved by u_p.
+    """Deflection of a clamped beam whose last particles are moved (thesis 3.2).
 
-    u_p/(2β³) ((ξ-α)³ - 3β²(ξ-α) + 2β³), ξ = (L-x)/L, α = Δx/(2L), β = 1-α (thesis 3.2).
+    u_y(x) = u_p/(2β³) ((ξ-α)³ - 3β²(ξ-α) + 2β³), ξ = (L-x)/L, α = Δx/(2L), β = 1-α.
+
+    Parameters
+    ----------
+    x : array [N]
+        Where (m).
+    end_displacement : float
+        u_p of the last particles, at length - spacing/2 (m).
+    length, spacing : float
+        L and Δx (m).
+
+    Returns
+    -------
+    array [N]
+        u_y (m).
     """
     alpha = spacing / (2.0 * length)
     beta = 1.0 - alpha
@@ -42,5 +69,5 @@ def bent_centreline(x: np.ndarray, end_displacement: float, length: float, spaci
 
 
 def end_angle(end_displacement: float, length: float, spacing: float) -> float:
-    """θ_end = 3 u_p/(2βL) [rad] at the driven end (thesis 3.2)."""
+    """θ_end = 3 u_p/(2βL) [rad] at the driven end (thesis 3.2); arguments as of `bent_centreline`."""
     return 3.0 * end_displacement / (2.0 * (length - 0.5 * spacing))

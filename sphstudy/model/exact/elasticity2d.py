@@ -46,9 +46,22 @@ class BentPlate(NamedTuple):
 def plate_frequencies(
     length: float, height: float, material: Material, insert: float = 0.0
 ) -> tuple[Reference, Reference]:
-    """The two lowest angular frequencies (rad/s) of a plate (m) clamped at x = 0.
+    """The two lowest angular frequencies of a plate.
 
-    insert (m): the plate goes on to x = -insert instead, its faces held there, its end free.
+    Parameters
+    ----------
+    length, height : float
+        Length beyond x = 0 and full height (m).
+    material : Material
+        The plate's.
+    insert : float
+        0: the plate is clamped at x = 0. Otherwise it goes on to x = -insert (m), with held faces and a
+        free end there.
+
+    Returns
+    -------
+    tuple of Reference
+        ω1 and ω2 (rad/s).
     """
     meshes = _INSERT_MESHES if insert else _MESHES
     coarse, fine = (_frequencies(length, height, material, n, insert) for n in meshes)
@@ -57,7 +70,7 @@ def plate_frequencies(
 
 @lru_cache
 def bent_plate(length: float, height: float, material: Material, deflection: float) -> BentPlate:
-    """Statics of a plate clamped at x = 0, u_y = deflection (m) and u_x free on x = length."""
+    """Statics of a plate clamped at x = 0, with u_y = deflection and u_x free on x = length; all in m."""
     coarse, fine = (_bent(length, height, material, deflection, n) for n in _MESHES)
     for shared in fine[2:]:
         shared.flags.writeable = False

@@ -13,9 +13,21 @@ from sphstudy.model.material import Material
 
 
 def lateral_stretch(law: str, material: Material, strain: float) -> float:
-    """Stretch across a bar that is elongated by `strain` and free of stress across.
+    """Stretch across a bar that is free of stress across.
 
-    Raises ValueError if there is no such law.
+    Parameters
+    ----------
+    law : {"linear", "svk", "neohookean", "rate"}
+        Relation of stress and strain, see the module.
+    material : Material
+        λ and µ of the plane.
+    strain : float
+        Elongation over length.
+
+    Raises
+    ------
+    ValueError
+        If there is no such law.
     """
     lame, shear = material.lame_modulus, material.shear_modulus
     contraction = lame / (lame + 2.0 * shear)
@@ -38,10 +50,7 @@ def lateral_stretch(law: str, material: Material, strain: float) -> float:
 
 
 def uniaxial_stress(law: str, material: Material, strain: float) -> float:
-    """σ_xx [Pa] of a bar that is elongated by `strain` in x and free of stress in y.
-
-    Raises ValueError if there is no such law.
-    """
+    """σ_xx [Pa] of a bar elongated in x and free of stress in y; arguments as of `lateral_stretch`."""
     lame, shear = material.lame_modulus, material.shear_modulus
     along, across = 1.0 + strain, lateral_stretch(law, material, strain)
     modulus = 4.0 * shear * (lame + shear) / (lame + 2.0 * shear)
@@ -55,10 +64,7 @@ def uniaxial_stress(law: str, material: Material, strain: float) -> float:
 
 
 def equibiaxial_stress(law: str, material: Material, strain: float) -> float:
-    """σ_xx = σ_yy [Pa] of a body stretched by `strain` in all directions of the plane.
-
-    Raises ValueError if there is no such law.
-    """
+    """σ_xx = σ_yy [Pa] of a body elongated alike in all directions; arguments as of `lateral_stretch`."""
     lame, shear = material.lame_modulus, material.shear_modulus
     stretch, modulus = 1.0 + strain, 2.0 * (lame + shear)
     if law == "linear":

@@ -18,9 +18,7 @@ _TERMS = (6, 9)
 
 
 class Spinning(NamedTuple):
-    """corner_stretch: relative gain of a corner's distance to the centre. inertia_gain: relative gain of
-    the moment of inertia.
-    """
+    """Relative gains of a corner's distance to the centre and of the moment of inertia."""
 
     corner_stretch: Reference
     inertia_gain: Reference
@@ -28,7 +26,7 @@ class Spinning(NamedTuple):
 
 @lru_cache
 def spinning_square(side: float, rate: float, material: Material) -> Spinning:
-    """A square (m) that rotates with `rate` (rad/s), to first order in ρ rate² side²/µ."""
+    """A square that rotates steadily, to first order in ρ rate² side²/µ; side (m), rate (rad/s)."""
     coarse, fine = (_solved(side, rate, material, terms) for terms in _TERMS)
     return Spinning(*(Reference(b, abs(b - a)) for a, b in zip(coarse, fine, strict=True)))
 

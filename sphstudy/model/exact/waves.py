@@ -15,10 +15,26 @@ def longitudinal_speed(material: Material) -> float:
 def stopped_bar(
     x: np.ndarray, time: float, speed: float, material: Material
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Displacement (m), velocity (m/s) and stress σ_xx (Pa) [N] along a bar whose end is stopped.
+    """State along a bar whose end is stopped.
 
-    Until time = 0 all of x > 0 flies towards the wall at x = 0 with `speed` (m/s). By d'Alembert a front
-    leaves the wall with c; behind it nothing moves and σ_xx = -ρ c speed. x [N] (m) ≥ 0, time (s).
+    Until time = 0 all of x > 0 flies towards the wall at x = 0. By d'Alembert a front leaves the wall
+    with c; behind it nothing moves and σ_xx = -ρ c speed.
+
+    Parameters
+    ----------
+    x : array [N]
+        Distances from the wall, not negative (m).
+    time : float
+        Time since the bar was stopped (s).
+    speed : float
+        Its speed before (m/s).
+    material : Material
+        The bar's.
+
+    Returns
+    -------
+    tuple of array [N]
+        Displacement (m), velocity (m/s) and σ_xx (Pa).
     """
     sound = longitudinal_speed(material)
     behind = x < sound * time
@@ -41,10 +57,11 @@ def checkerboard_stiffness(material: Material) -> float:
 def stopped_chain(index: np.ndarray, phase: float) -> np.ndarray:
     """Velocities [N] over the bar's speed, from 0 to about -1, of a chain of equal masses and springs.
 
-    The bar of `stopped_bar` as lumps, what the plainest lattice makes of it without dissipation. Mass
-    number 0 is stopped; index [N] ≥ 0, phase = c time/spacing. Schrödinger's Bessel functions (1914) of
-    the odd continuation sum up to -(J_0 + 2 Σ_{0<k<n} J_2k + J_2n)(2 phase). The front widens as ∛phase,
-    and behind it the velocity overshoots by what the integral of Airy's function does, 0.274.
+    It is the bar of `stopped_bar` as the plainest lattice has it, without dissipation. Mass number 0 is
+    stopped; index [N] ≥ 0: numbers of masses; phase = c time/spacing. Schrödinger's Bessel functions
+    (1914) of the odd continuation sum up to -(J_0 + 2 Σ_{0<k<n} J_2k + J_2n)(2 phase).
+    The front widens as ∛phase, and
+    behind it the velocity overshoots by what the integral of Airy's function does, 0.274.
     """
     terms = special.jv(2 * np.arange(int(index.max()) + 1), 2.0 * phase)
     sums = 2.0 * np.cumsum(terms) - terms[0]

@@ -15,7 +15,29 @@ def displacement(
     youngs_modulus: float,
     poisson_ratio: float,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """u_x, u_y [m] at x, y (m) for K (Pa √m), E (Pa), ν; mode 1 or 2. Raises ValueError otherwise."""
+    """Displacement of the field.
+
+    Parameters
+    ----------
+    mode : {1, 2}
+        1: opening; 2: sliding.
+    x, y : array [N]
+        Positions with respect to the tip (m).
+    stress_intensity : float
+        K of the mode (Pa √m).
+    youngs_modulus, poisson_ratio : float
+        E (Pa) and ν.
+
+    Returns
+    -------
+    tuple of array [N]
+        u_x and u_y (m).
+
+    Raises
+    ------
+    ValueError
+        If there is no such mode.
+    """
     half = 0.5 * np.arctan2(y, x)
     kappa = (3.0 - poisson_ratio) / (1.0 + poisson_ratio)
     scale = (1.0 + poisson_ratio) * stress_intensity / (4.0 * np.pi * youngs_modulus)
@@ -36,7 +58,7 @@ def displacement(
 def stress(
     mode: int, x: np.ndarray, y: np.ndarray, stress_intensity: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """σ_xx, σ_yy, σ_xy [Pa] at x, y (m); mode 1 or 2. Raises ValueError otherwise."""
+    """σ_xx, σ_yy and σ_xy [N] (Pa); arguments as of `displacement`."""
     half = 0.5 * np.arctan2(y, x)
     scale = stress_intensity / np.sqrt(2.0 * np.pi * np.hypot(x, y))
     sine, cosine = np.sin(half), np.cos(half)
@@ -63,7 +85,7 @@ def displacement_gradient(
     youngs_modulus: float,
     poisson_ratio: float,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """∂u_x/∂x, ∂u_x/∂y, ∂u_y/∂x, ∂u_y/∂y at x, y (m); mode 1 or 2. Raises ValueError otherwise.
+    """∂u_x/∂x, ∂u_x/∂y, ∂u_y/∂x and ∂u_y/∂y [N]; arguments as of `displacement`.
 
     Strain by Hooke's law. Rotation: E ω is the harmonic conjugate of σ_xx + σ_yy, for in Muskhelishvili's
     φ(z) the latter is 4 Re φ' and the former, in plane stress, 4 Im φ'; in mode I 4φ' = 2K/√(2πz), in

@@ -49,10 +49,10 @@ _METRICS = {
 """Block, metric: what it is called, its unit, the unit of its changes, and the factor to that unit."""
 
 _SMALLEST = 1e-5
-"""Smallest change on an axis, over the largest: less is rounding, not worth the decades it would take."""
+"""Smallest change on an axis, over the largest: smaller ones are rounding and would take decades."""
 
 _WITHOUT = {"done": "undefined"}
-"""What is said of a point that has not got the metric, where that is not its status."""
+"""What stands at a point without the metric, if not its status."""
 
 _UP, _DOWN, _CONTROL = ("^", "#D55E00"), ("v", "#0072B2"), ("o", "0.4")
 
@@ -110,7 +110,7 @@ def _chart(results: Results, block: str) -> Figure:
 def _panel(axes: Axes, rows: pd.DataFrame, changes: dict[str, float]) -> None:
     """Changes by setting; a setting without one shows the status of its point.
 
-    A change that is zero, or too small for the axis, is only told as a number at its edge.
+    A change that is zero, or too small for the axis, stands as a number at its edge.
     """
     high = max((abs(change) for change in changes.values()), default=0.0) or 1.0
     sizes = [abs(change) for change in changes.values() if abs(change) >= _SMALLEST * high]

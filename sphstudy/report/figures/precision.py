@@ -25,13 +25,13 @@ _LOOKS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
 """Method and solver: what they are called, and how they look."""
 
 _WITHIN = 0.3
-"""How far a prediction may be off."""
+"""Relative error of a good prediction."""
 
 _LOWER = 0.92
-"""Points of the front are named if they lie below this share of the last that is."""
+"""A point of the front has its name if its error is below this share of the last named one."""
 
 _SEVERAL = 3
-"""Resolutions of a series whose h is told."""
+"""Resolutions from which on a series ends in its h."""
 
 _HOW = (
     "Every point by its CPU time, compilation left out. Thin lines join resolutions n with all other "

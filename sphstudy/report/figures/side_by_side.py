@@ -16,7 +16,7 @@ METHODS = {"thesis": "thesis", "tl": "total Lagrangian"}
 """Methods that are compared, as the configuration and as a reader calls them, in the order of panels."""
 
 _COMMON = 4.0
-"""Errors that differ by more than this factor get scales of their own, and it is said so."""
+"""Errors that differ by more than this factor get scales of their own, and the panel says so."""
 
 _SOLVERS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ("thesis", "explicit"): ("thesis, stepped", {"marker": "o", "color": "C0"}),
@@ -168,7 +168,7 @@ def _grid(results: Results, scene: str, method: str, metric: str) -> pd.DataFram
 
 def _measured(results: Results, scene: str, metric: str) -> pd.DataFrame:
     """Points of a scene with this error and a cost, solved one way or another. Raises Missing if none."""
-    # What one of the two solvers does is stored with the method's own study.
+    # The method's own study has the runs of one of the two solvers.
     block = "modes" if scene == "plate" else "stepped"
     found = [results.select({"scene": scene}), results.other(f"tl_{scene}").select(block=block)]
     columns = ["record", "method", "solve", "n", metric, "cpu_seconds"]

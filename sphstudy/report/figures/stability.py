@@ -21,7 +21,7 @@ _LOOKS: dict[str, tuple[str, str, str]] = {
     DEGRADED: ("#f0b03f", "black", "\N{BLACK UP-POINTING TRIANGLE}"),
     DIVERGED: ("#8c2d04", "white", "\N{MULTIPLICATION X}"),
 }
-"""Colour of a cell, of what is written in it, and its sign: darker is worse, in grey as well."""
+"""For each outcome: colour of a cell, of its text, and its sign. Darker is worse, in grey as well."""
 
 _OTHER = ("white", "black", "?")
 """Runs without a result: failed, timed out, not there. Hatched."""
@@ -41,7 +41,7 @@ _SHORT = {
 }
 
 _LETTERS = 17.0
-"""So many fit into an inch."""
+"""Characters of a cell's second line that fit into one inch."""
 
 
 @figure(

@@ -26,7 +26,7 @@ PANELS = {
 _ARROW = "$\\downarrow$"
 
 _FLOOR = 1e-6
-"""Changes below this are drawn at it: the fit of a frequency to samples has no more digits."""
+"""Smaller changes are drawn here: the fit of a frequency to samples has no more digits."""
 
 
 @figure(

@@ -4,8 +4,7 @@ import pytest
 
 from sphstudy.__main__ import main
 from sphstudy.benchmarks.speed import measurements as parts
-from sphstudy.benchmarks.speed.settings import PARTS, parsed
-from sphstudy.errors import ConfigurationError
+from sphstudy.benchmarks.speed.settings import PARTS, chosen
 from sphstudy.store.netcdf import read_dataset
 from tests.benchmarks.speed.synthetic import measurements
 
@@ -16,27 +15,27 @@ from tests.benchmarks.speed.synthetic import measurements
         ("quick=maybe", "quick=maybe: should be true or false"),
         ("rounds=0", "rounds=0: should be a whole number from 1 to 1000"),
         ("rounds=2.5", "rounds=2.5: should be a whole number"),
-        ("parts=forms,turbo", "parts=turbo: there is forms, growth"),
-        ("h=1.5", "h=1.5: study speed takes quick=, results=, rounds=, parts="),
-        ("results=", "results=: should be a folder"),
+        ("parts=forms,turbo", "unknown part 'turbo'; there are forms, growth"),
+        ("h=1.5", "h=1.5: unknown option of speed 'h'; there are dry-run, parts"),
+        ("quick=true quick=false", "quick: is given twice"),
+        ("results=", "results=: lacks its value"),
     ],
 )
 def test_wrong_input_is_answered_in_a_line(override, said, capsys):
-    assert main(["study", "speed", override]) == 2
+    assert main(["study", "speed", *override.split()]) == 2
     complaint = capsys.readouterr().err
     assert said in complaint
     assert complaint.count("\n") == 1
 
 
 def test_settings():
-    assert parsed([]).parts == tuple(PARTS)
-    assert parsed(["quick=true"]).rounds < parsed([]).rounds
-    assert parsed(["quick=true"]).slice_seconds < parsed([]).slice_seconds
-    assert parsed(["quick=true", "rounds=9"]).rounds == 9
+    usual, quick = chosen({}), chosen({"quick": "true"})
+    assert usual.parts == tuple(PARTS)
+    assert quick.rounds < usual.rounds
+    assert quick.slice_seconds < usual.slice_seconds
+    assert chosen({"quick": "true", "rounds": "9"}).rounds == 9
     # Always in the order in which they are measured.
-    assert parsed(["parts=[runs,forms]"]).parts == ("forms", "runs")
-    with pytest.raises(ConfigurationError, match="quick is given twice"):
-        parsed(["quick=true", "quick=false"])
+    assert chosen({"parts": "[runs,forms]"}).parts == ("forms", "runs")
 
 
 def test_measures_writes_and_tells_what_it_took(tmp_path, monkeypatch, capsys):

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from sphstudy.benchmarks.speed import cases
-from sphstudy.benchmarks.speed import drawings as speed
+from sphstudy.benchmarks.speed import figures as speed
 from sphstudy.benchmarks.speed.bounds import bounds
 from sphstudy.benchmarks.speed.dataset import dataset
-from sphstudy.benchmarks.speed.figures import write_figures
 from sphstudy.benchmarks.speed.measurements import Measurements
 from sphstudy.benchmarks.speed.settings import Settings
 from sphstudy.benchmarks.speed.tables import print_tables
@@ -96,7 +95,7 @@ def test_tables_show_numbers_and_bounds(found, capsys):
     said = capsys.readouterr().out
     for text in (
         "thesis, plate, shuffled",
-        "measured / bound",
+        "bound ratio",
         "1.25",
         "control 1.8",
         " 300 ",
@@ -114,7 +113,7 @@ def test_figures_draw_every_form_and_every_term(found, tmp_path):
     terms = speed.terms(found)
     named = [[tick.get_text() for tick in axes.get_yticklabels()] for axes in terms.axes]
     assert named == [list(cases.THESIS_TERMS), list(cases.TL_TERMS)]
-    assert [path.name for path in write_figures(found, tmp_path)] == ["growth.png", "terms.png"]
+    assert [path.name for path in speed.write_figures(found, tmp_path)] == ["growth.png", "terms.png"]
 
 
 def test_what_was_not_measured_is_not_there():

@@ -34,25 +34,10 @@ from pysph.sph.solid_mech.basic import (
 class HeldStep(SolidMechStep):
     """Stress and density evolve, the particle stays: a wall without stress would be a hinge."""
 
+    # fmt: off
     def stage1(
-        self,
-        d_idx,
-        d_rho0,
-        d_rho,
-        d_arho,
-        d_s00,
-        d_s01,
-        d_s11,
-        d_s22,
-        d_s000,
-        d_s010,
-        d_s110,
-        d_s220,
-        d_as00,
-        d_as01,
-        d_as11,
-        d_as22,
-        dt,
+        self, d_idx, d_rho0, d_rho, d_arho, d_s00, d_s01, d_s11, d_s22, d_s000,
+        d_s010, d_s110, d_s220, d_as00, d_as01, d_as11, d_as22, dt,
     ):
         d_rho[d_idx] = d_rho0[d_idx] + 0.5 * dt * d_arho[d_idx]
         d_s00[d_idx] = d_s000[d_idx] + 0.5 * dt * d_as00[d_idx]
@@ -61,30 +46,15 @@ class HeldStep(SolidMechStep):
         d_s22[d_idx] = d_s220[d_idx] + 0.5 * dt * d_as22[d_idx]
 
     def stage2(
-        self,
-        d_idx,
-        d_rho0,
-        d_rho,
-        d_arho,
-        d_s00,
-        d_s01,
-        d_s11,
-        d_s22,
-        d_s000,
-        d_s010,
-        d_s110,
-        d_s220,
-        d_as00,
-        d_as01,
-        d_as11,
-        d_as22,
-        dt,
+        self, d_idx, d_rho0, d_rho, d_arho, d_s00, d_s01, d_s11, d_s22, d_s000,
+        d_s010, d_s110, d_s220, d_as00, d_as01, d_as11, d_as22, dt,
     ):
         d_rho[d_idx] = d_rho0[d_idx] + dt * d_arho[d_idx]
         d_s00[d_idx] = d_s000[d_idx] + dt * d_as00[d_idx]
         d_s01[d_idx] = d_s010[d_idx] + dt * d_as01[d_idx]
         d_s11[d_idx] = d_s110[d_idx] + dt * d_as11[d_idx]
         d_s22[d_idx] = d_s220[d_idx] + dt * d_as22[d_idx]
+    # fmt: on
 
 
 def particles(name: str, body, chosen: np.ndarray, settings: dict):

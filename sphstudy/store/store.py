@@ -7,8 +7,9 @@
 <results>/runs/<label>-<key>.unreadable     a damaged or foreign file of that name, set aside
 <results>/sweeps/<name>.nc                  a combined dataset
 
-Tables, plans and `status` read the summary at the end of a record, which has a checksum of its own.
-All bytes of a record are checked when it is loaded: for a figure, a judgement, by `measure`, from Python.
+Tables and `status` read the summary at the end of a record, which has a checksum of its own. All bytes
+of a record are checked when a sweep decides that it need not be computed again, and when it is loaded:
+for a figure, a judgement, by `measure`, from Python.
 """
 
 import errno
@@ -24,7 +25,7 @@ import xarray as xr
 from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.errors import ConfigurationError
 from sphstudy.store import identity
-from sphstudy.store.checksum import sealed_text
+from sphstudy.store.checksum import check_seal, sealed_text
 from sphstudy.store.lock import is_alive
 from sphstudy.store.netcdf import UNREADABLE, load, write
 from sphstudy.store.summary import Summary, of_record, of_text
@@ -119,19 +120,29 @@ class Store:
             return 0
 
     def status(self, config: RunConfig) -> str:
-        """Outcome of a run, by its summary; without a record "running", "interrupted" or "missing"."""
+        """Outcome of a run; without a record "running", "interrupted" or "missing".
+
+        All bytes of the record are checked: a sweep takes it instead of computing the run.
+        """
         path = self.record_path(config)
         claim = path.with_suffix(CLAIM)
         if is_alive(claim):
             return "running"
-        if (found := read_summary(path)) is not None:
+        if (found := read_summary(path, whole=True)) is not None:
             return found.status
         lost = claim.exists() or path.with_suffix(CHECKPOINT).exists()
         return "interrupted" if lost else "missing"
 
 
-def read_summary(path: Path) -> Summary | None:
+def read_summary(path: Path, whole: bool = False) -> Summary | None:
     """The summary of a record, by its path; None if there is none or it is unreadable (then set aside).
+
+    Parameters
+    ----------
+    path : Path
+        The record.
+    whole : bool
+        Whether all bytes of the record are checked, and not the summary's alone.
 
     Raises
     ------
@@ -139,6 +150,8 @@ def read_summary(path: Path) -> Summary | None:
         If the system does not let it be read now.
     """
     try:
+        if whole:
+            check_seal(path)
         return summarised(path)
     except UNREADABLE as error:
         _refuse(path, error)

@@ -33,7 +33,8 @@ def test_speed_is_a_command_that_study_knows_too(capsys):
     assert capsys.readouterr().out == measured
     assert main(["list"]) == 0
     listed = capsys.readouterr().out.partition("studies:\n")[2].splitlines()
-    assert [line.split()[0] for line in listed] == study_file.names()
+    heads = [line for line in listed if not line.startswith(3 * " ")]  # a long title takes more lines
+    assert [line.split()[0] for line in heads] == study_file.names()
     assert main(["report", "speed"]) == 2
     assert "`sphstudy speed` measures this machine" in capsys.readouterr().err
 

@@ -2,6 +2,7 @@
 
 import re
 import shlex
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -39,12 +40,23 @@ def test_every_command_line_is_understood():
             assert all(word.isupper() or word in study_file.names() for word in request.words), line
 
 
-def test_every_line_of_runs_makes_points():
-    with session() as hydra:
-        for request in map(parse, UNDERSTOOD):
-            if request.name == "run":
-                settings = list(request.settings)
-                settings = [s for s in settings if s not in launcher_overrides(settings)]
+def scenes_of_its_reader(folder):
+    """The files of scenes that README shows, where its command lines look for them."""
+    for text in re.findall(r"^(    # @package _global_\n(?:    .*\n)+)", README, re.MULTILINE):
+        path = folder / "my_conf" / "scene" / "stubby.yaml"
+        path.parent.mkdir(parents=True)
+        path.write_text(textwrap.dedent(text), encoding="utf-8")
+
+
+def test_every_line_of_runs_makes_points(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("SPHSTUDY_CONFIG_DIR", "")  # put back afterwards
+    scenes_of_its_reader(tmp_path)
+    for request in map(parse, UNDERSTOOD):
+        if request.name == "run":
+            settings = list(request.settings)
+            settings = [s for s in settings if s not in launcher_overrides(settings)]
+            with session(request.config_dir) as hydra:
                 assert hydra.points(settings, sweep=request.has("multirun"))[0], request
 
 

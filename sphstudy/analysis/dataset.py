@@ -15,6 +15,7 @@ from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.store import identity, netcdf, provenance, record
 from sphstudy.store.record import STATUS
 from sphstudy.store.store import Store
+from sphstudy.store.summary import Summary
 
 SPARSEST = 8
 """If a full grid would have more than this many cells per point, the dataset is a list of points."""
@@ -26,7 +27,12 @@ _TEXTS = {
 }
 
 
-def combine(configs: list[RunConfig], store: Store, study: str = "STUDY") -> xr.Dataset:
+def combine(
+    configs: list[RunConfig],
+    store: Store,
+    study: str = "STUDY",
+    known: list[Summary | None] | None = None,
+) -> xr.Dataset:
     """All points in one dataset, points without a record as "missing". Nothing is written.
 
     Parameters
@@ -37,6 +43,8 @@ def combine(configs: list[RunConfig], store: Store, study: str = "STUDY") -> xr.
         Where their records are.
     study : str
         The study that they belong to, for the line about metrics of an older version.
+    known : list of Summary, optional
+        Summaries of their records that have been read already; None for the others.
 
     Returns
     -------
@@ -46,7 +54,7 @@ def combine(configs: list[RunConfig], store: Store, study: str = "STUDY") -> xr.
     """
     flat = [config.flat() for config in configs]
     swept = dimensions(flat)
-    stored = points_table(configs, store, study)
+    stored = points_table(configs, store, study, known)
     table = pd.DataFrame(stored.rows).drop(columns=[key for key in ORIGIN if key != "message"])
     table["configuration"] = [config.text for config in configs]
     places = pd.DataFrame([{key: hashable(point.get(key)) for key in swept} for point in flat])

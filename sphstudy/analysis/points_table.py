@@ -39,7 +39,12 @@ class PointsTable:
     attributes: dict[str, dict[str, Any]]
 
 
-def points_table(configs: list[RunConfig], store: Store, study: str = "STUDY") -> PointsTable:
+def points_table(
+    configs: list[RunConfig],
+    store: Store,
+    study: str = "STUDY",
+    known: list[Summary | None] | None = None,
+) -> PointsTable:
     """The stored runs of these configurations, in their order; nothing is run, nothing written.
 
     Metrics of another version are measured in memory, which one line on stderr reports.
@@ -52,11 +57,13 @@ def points_table(configs: list[RunConfig], store: Store, study: str = "STUDY") -
         Where their records are.
     study : str
         The study that they belong to, for the line on stderr.
+    known : list of Summary, optional
+        Summaries of their records that have been read already; None for the others.
     """
     table, already = PointsTable([], {}), len(_measured)
-    for config in configs:
+    for config, read_before in zip(configs, known or [None] * len(configs), strict=True):
         path = store.record_path(config)
-        summary = store.summary(config)
+        summary = read_before or store.summary(config)
         if summary is not None and summary.status == "done":
             summary = _current(summary, path, config, store)
         row: dict[str, Any] = {

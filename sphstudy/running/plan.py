@@ -8,6 +8,7 @@ from sphstudy.catalogue import method_module, scene_module
 from sphstudy.configuration.composition import Point
 from sphstudy.errors import ConfigurationError
 from sphstudy.store.store import REUSED, Store
+from sphstudy.store.summary import Summary
 from sphstudy.text import duration
 
 TRIED_AGAIN = {
@@ -21,12 +22,13 @@ TRIED_AGAIN = {
 
 @dataclass(frozen=True)
 class Planned:
-    """A point, the status that the store has of it, whether it runs and why; predicted CPU time (s) and
-    memory (bytes), if it does.
+    """A point, the status that the store has of it and its summary there, whether it runs and why;
+    predicted CPU time (s) and memory (bytes), if it does.
     """
 
     point: Point
     status: str
+    stored: Summary | None
     seconds: float
     memory: float
     runs: bool
@@ -41,7 +43,7 @@ def plan(points: list[Point], store: Store, force: bool = False) -> list[Planned
     found, complaints = [], []
     known = None
     for point in points:
-        status = store.status(point.config)
+        status, stored = store.checked(point.config)
         runs, reason = _decision(status, point.retry, force)
         seconds = memory = 0.0
         # What does not run needs no forecast, which in a study of 20 000 points would take minutes.
@@ -50,7 +52,7 @@ def plan(points: list[Point], store: Store, force: bool = False) -> list[Planned
             complaints += wrong
             known = known or rates(store)
             seconds, memory = 0.0 if wrong else known.seconds(point.config, work), _memory(point)
-        found.append(Planned(point, status, seconds, memory, runs, reason))
+        found.append(Planned(point, status, stored, seconds, memory, runs, reason))
     if complaints:
         raise ConfigurationError(complaints)
     return found

@@ -66,5 +66,5 @@ def sweep(
     if elsewhere:
         launching.wait_for(elsewhere)
     configs = [p.config for p in points]
-    combined = dataset.combine(configs, store)
+    combined = dataset.combine(configs, store, known=[None if p.runs else p.stored for p in planned])
     return combined, dataset.write(combined, configs, store, name)

@@ -120,18 +120,21 @@ class Store:
             return 0
 
     def status(self, config: RunConfig) -> str:
-        """Outcome of a run; without a record "running", "interrupted" or "missing".
+        """Outcome of a run; without a record "running", "interrupted" or "missing"."""
+        return self.checked(config)[0]
 
-        All bytes of the record are checked: a sweep takes it instead of computing the run.
+    def checked(self, config: RunConfig) -> tuple[str, Summary | None]:
+        """Outcome of a run, and the summary of a record all of whose bytes were checked: a sweep takes it
+        instead of computing the run.
         """
         path = self.record_path(config)
         claim = path.with_suffix(CLAIM)
         if is_alive(claim):
-            return "running"
+            return "running", None
         if (found := read_summary(path, whole=True)) is not None:
-            return found.status
+            return found.status, found
         lost = claim.exists() or path.with_suffix(CHECKPOINT).exists()
-        return "interrupted" if lost else "missing"
+        return "interrupted" if lost else "missing", None
 
 
 def read_summary(path: Path, whole: bool = False) -> Summary | None:

@@ -7,7 +7,6 @@ ranges and meanings.
 import json
 import os
 import re
-from collections.abc import Iterator
 from functools import cache, cached_property
 from typing import Any
 
@@ -61,13 +60,6 @@ class RunConfig:
     def label(self) -> str:
         """A name for people: scene, method, h and n."""
         return f"{self.scene.name}-{self.method.name}-h{self.h:g}-n{self.n}"
-
-
-def timeless(config: RunConfig) -> Iterator[str]:
-    """Complaints of a solver that knows no time about times at which fields were to be kept."""
-    for key, asked in (("times", list(config.record.times)), ("frames", config.record.frames)):
-        if asked:
-            yield f"record.{key}={asked}: solve={config.solve.name} knows no time"
 
 
 def flattened(nested: dict[str, Any]) -> dict[str, Any]:

@@ -117,7 +117,7 @@ class Stage:
     extension: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Problem:
     """A scene at one resolution, ready to be discretised.
 

@@ -6,7 +6,6 @@ from typing import Literal
 
 import numpy as np
 
-from sphstudy.catalogue import scene_module
 from sphstudy.model.problem import Problem
 from sphstudy.numerics.methods import lattice
 from sphstudy.numerics.methods.lattice import lattice_neighbours, support
@@ -102,9 +101,8 @@ def wave_speed(config, problem: Problem) -> float:
     return problem.body.material.wave_speed
 
 
-def highest_frequency(config) -> float:
+def highest_frequency(problem: Problem, config) -> float:
     """ω_max [rad/s] of the problem before any crack is extended: cutting bonds lowers it."""
-    problem = scene_module(config.scene.kind).build(config)
     return _highest_frequency(model(problem, config, problem.stages[0].crack_nodes))
 
 

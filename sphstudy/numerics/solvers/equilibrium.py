@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from sphstudy.configuration.run_settings import timeless
 from sphstudy.model.problem import Problem, Stage
+from sphstudy.numerics.solvers import timeless
 from sphstudy.numerics.solvers.checkpoint import Keeper
 from sphstudy.numerics.solvers.factorisation import NotSolvable
 from sphstudy.numerics.solvers.indicators import Indicators
@@ -47,7 +47,7 @@ def check(problem: Problem, config, method) -> Iterator[str]:
                 f"solve=equilibrium: stage {stage.name} of scene {config.scene.name} moves freely; "
                 "take modes or explicit"
             )
-    yield from timeless(config)
+    yield from timeless.check(config)
 
 
 def predicted_steps(problem: Problem, config, method) -> int:

@@ -72,13 +72,14 @@ def plan(stages: tuple[Stage, ...], parameters: Parameters, dt: float) -> list[i
 def time_step(problem: Problem, config, method) -> float:
     """Δt = C Δ/c0 (2.27), or the chosen share of 2/ω_max [s]."""
     if config.solve.time_step == "frequency":
-        return config.solve.safety * 2.0 / _highest_frequency(config, method)
+        return config.solve.safety * 2.0 / _highest_frequency(problem, config, method)
     return config.solve.courant * problem.step_spacing / method.wave_speed(config, problem)
 
 
-@lru_cache(maxsize=64)
-def _highest_frequency(config, method) -> float:
-    return method.highest_frequency(config)
+# Complaints and forecasts ask for one and the same problem's in a row.
+@lru_cache(maxsize=1)
+def _highest_frequency(problem: Problem, config, method) -> float:
+    return method.highest_frequency(problem, config)
 
 
 def integrator(config, method) -> str:

@@ -7,9 +7,8 @@ from typing import Literal
 
 import numpy as np
 
-from sphstudy.configuration.run_settings import timeless
 from sphstudy.model.problem import Problem
-from sphstudy.numerics.solvers import growth
+from sphstudy.numerics.solvers import growth, timeless
 from sphstudy.numerics.solvers.checkpoint import Keeper
 from sphstudy.numerics.solvers.explicit import cost, integrator, not_offered
 from sphstudy.numerics.solvers.growth import Bracket, Trial
@@ -41,7 +40,7 @@ HEADLINE = (
     "bracket_width",
     "trials",
 )
-"""Shown in place of the scene's metrics, which such a run has none of: nothing is left that moves."""
+"""Metrics for tables: a search records no motion, so the scene's metrics do not apply."""
 
 
 @parameters
@@ -62,7 +61,7 @@ def check(problem: Problem, config, method) -> Iterator[str]:
     """Complaints: what the method does not offer, bounds in the wrong order, times asked for."""
     solve = config.solve
     yield from not_offered(config, method)
-    yield from timeless(config)
+    yield from timeless.check(config)
     if not solve.lowest_courant * (1.0 + solve.tolerance) < solve.highest_courant:
         yield (
             f"solve.lowest_courant={solve.lowest_courant:g}: should be below "
@@ -130,7 +129,7 @@ def run(
         message=_message(found),
         steps=found.steps,
         pairs=pairs,
-        variables=_variables(found, unit, _predicted(config, method)),
+        variables=_variables(found, unit, _predicted(problem, config, method)),
     )
 
 
@@ -142,11 +141,11 @@ def _message(found: Bracket) -> str:
     return ""
 
 
-def _predicted(config, method) -> float:
+def _predicted(problem: Problem, config, method) -> float:
     """2/ω_max (s), Verlet's limit without damping; NaN where the method has no stiffness."""
     if not hasattr(method, "highest_frequency"):
         return np.nan
-    return 2.0 / method.highest_frequency(config)
+    return 2.0 / method.highest_frequency(problem, config)
 
 
 def _variables(found: Bracket, unit: float, predicted: float) -> dict[str, Variable]:

@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import scipy.sparse.linalg
 
-from sphstudy.configuration.run_settings import timeless
 from sphstudy.model.problem import Problem
+from sphstudy.numerics.solvers import timeless
 from sphstudy.numerics.solvers.checkpoint import Keeper
 from sphstudy.numerics.solvers.factorisation import Factorisation, NotSolvable
 from sphstudy.numerics.solvers.newton import freedoms, freedoms_along_body
@@ -49,7 +49,7 @@ def check(problem: Problem, config, method) -> Iterator[str]:
     most = 2 * problem.body.x.size - held - 2
     if config.solve.count > most:
         yield f"solve.count={config.solve.count}: {config.label} has {most} that can be found"
-    yield from timeless(config)
+    yield from timeless.check(config)
 
 
 def predicted_steps(problem: Problem, config, method) -> int:

@@ -6,7 +6,7 @@ import numpy as np
 
 from sphstudy.model.problem import Problem, Stage
 from sphstudy.numerics.solvers import verlet
-from sphstudy.numerics.sph import bonds, constitutive, total_lagrangian
+from sphstudy.numerics.sph import bonds, constitutive, total_lagrangian, viscosity
 from sphstudy.numerics.sph.invariants import Invariants
 from sphstudy.numerics.sph.total_lagrangian import Model, Workspace
 
@@ -119,7 +119,7 @@ def totals(model: Model, position: np.ndarray, velocity: np.ndarray, amplitude_r
     """Invariants of a state: positions and velocities [2, N] (m, m/s)."""
     mass, work = model.mass, total_lagrangian.workspace(model.mass.size)
     force = internal_force(model, position[0], position[1], work)
-    total_lagrangian.add_viscosity(model.viscosity, model, *velocity, *position, force)
+    viscosity.add_forces(model.viscosity, model, *velocity, *position, force)
     energy = sum(total_lagrangian.energies(model, *position, work))
     squared = (velocity**2).sum(axis=0)
     momentum = (mass * velocity).sum(axis=1)

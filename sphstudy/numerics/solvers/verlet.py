@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.model.constraints import prescribe
 from sphstudy.numerics.compilation import compiled, compiled_inner
-from sphstudy.numerics.sph import neighbours, total_lagrangian
+from sphstudy.numerics.sph import damping, neighbours, total_lagrangian, viscosity
+from sphstudy.numerics.sph.constraints import prescribe
 
 X, Y, VX, VY, AX, AY = range(6)
 STATE_ROWS = 6
@@ -49,9 +49,7 @@ def accelerate(model, state, memory):
     """
     force = memory.force
     total_lagrangian.force(model, state[X], state[Y], memory.work, force)
-    total_lagrangian.add_viscosity(
-        model.viscosity, model, state[VX], state[VY], state[X], state[Y], force
-    )
+    viscosity.add_forces(model.viscosity, model, state[VX], state[VY], state[X], state[Y], force)
     for i in range(state.shape[1]):
         state[AX, i] = force[0, i] / model.mass[i]
         state[AY, i] = force[1, i] / model.mass[i]
@@ -92,13 +90,8 @@ def _outdated(contact, state, dt):
 
 
 @compiled_inner
-def _rate(damping):
-    return 0.0 if damping is None else damping
-
-
-@compiled_inner
 def _verlet_step(model, state, memory, amplitude_rate, dt):
-    damped = 0.5 * dt * _rate(model.damping)
+    damped = 0.5 * dt * damping.rate(model.damping)
     for i in range(state.shape[1]):
         state[VX, i] = (1.0 - damped) * state[VX, i] + 0.5 * dt * state[AX, i]
         state[VY, i] = (1.0 - damped) * state[VY, i] + 0.5 * dt * state[AY, i]
@@ -115,13 +108,13 @@ def _verlet_step(model, state, memory, amplitude_rate, dt):
 
 @compiled_inner
 def _heun_step(model, state, memory, amplitude_rate, dt):
-    predicted, damping = memory.predicted, _rate(model.damping)
+    predicted, gamma = memory.predicted, damping.rate(model.damping)
     prescribe(model.constraints, state[VX], state[VY], amplitude_rate)
     for i in range(state.shape[1]):
         predicted[X, i] = state[X, i] + dt * state[VX, i]
         predicted[Y, i] = state[Y, i] + dt * state[VY, i]
-        predicted[VX, i] = state[VX, i] + dt * (state[AX, i] - damping * state[VX, i])
-        predicted[VY, i] = state[VY, i] + dt * (state[AY, i] - damping * state[VY, i])
+        predicted[VX, i] = state[VX, i] + dt * (state[AX, i] - gamma * state[VX, i])
+        predicted[VY, i] = state[VY, i] + dt * (state[AY, i] - gamma * state[VY, i])
     prescribe(model.constraints, predicted[VX], predicted[VY], amplitude_rate)
     accelerate(model, predicted, memory)
     half = 0.5 * dt
@@ -129,8 +122,8 @@ def _heun_step(model, state, memory, amplitude_rate, dt):
         vx, vy = state[VX, i], state[VY, i]
         state[X, i] += half * (vx + predicted[VX, i])
         state[Y, i] += half * (vy + predicted[VY, i])
-        state[VX, i] += half * (state[AX, i] + predicted[AX, i] - damping * (vx + predicted[VX, i]))
-        state[VY, i] += half * (state[AY, i] + predicted[AY, i] - damping * (vy + predicted[VY, i]))
+        state[VX, i] += half * (state[AX, i] + predicted[AX, i] - gamma * (vx + predicted[VX, i]))
+        state[VY, i] += half * (state[AY, i] + predicted[AY, i] - gamma * (vy + predicted[VY, i]))
     prescribe(model.constraints, state[VX], state[VY], amplitude_rate)
     accelerate(model, state, memory)
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sphstudy.numerics.compilation import compiled_inner
+from sphstudy.numerics.sph import kernel
 
 
 class ArtificialStress(NamedTuple):
@@ -45,3 +46,32 @@ def closeness(artificial, kernel_value):
         power *= 1.0 + chosen * (f - 1.0)
         f *= f
     return power
+
+
+@compiled_inner
+def factor(artificial, shape, q):
+    """f_ijⁿ of two particles q smoothing lengths apart; 0 without artificial stress."""
+    if artificial is None:
+        return 0.0
+    return closeness(artificial, kernel.value(shape, q))
+
+
+@compiled_inner
+def load(artificial, row, xx, yy, xy, data):
+    """R of every particle, from its stress [N] (Pa), into three rows of the pair data."""
+    if artificial is None:
+        return
+    for i in range(xx.size):
+        r_xx, r_yy, r_xy = principal_pressure(artificial, xx[i], yy[i], xy[i])
+        data[row, i] = r_xx
+        data[row + 1, i] = r_yy
+        data[row + 2, i] = r_xy
+
+
+@compiled_inner
+def stresses(artificial, row, data, begin, count):
+    """R of a batch of particles, xx, yy, xy; without artificial stress nothing reads what is returned."""
+    end = begin + count
+    if artificial is None:
+        return data[0, begin:end], data[0, begin:end], data[0, begin:end]
+    return data[row, begin:end], data[row + 1, begin:end], data[row + 2, begin:end]

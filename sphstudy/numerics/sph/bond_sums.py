@@ -8,8 +8,7 @@ import numpy as np
 from numba import get_thread_id, prange
 
 from sphstudy.numerics.compilation import compiled, compiled_inner, compiled_parallel
-
-XX, XY, YX, YY = range(4)
+from sphstudy.numerics.sph.hourglass import XX, XY, YX, YY, pull
 
 BATCH = 256
 """Bonds whose terms are kept at a time: the buffers stay in the innermost cache."""
@@ -75,14 +74,6 @@ def moments(parallel, bonds, x, y, into):
 
 
 @compiled_inner
-def _pull(hourglass, weight, apart):
-    """2 ζµ w x_ij of one component; `hourglass` goes all the way down as it is, since a function that
-    returned either None or a number would return an optional one, and Numba's threads lose which it is.
-    """
-    return 0.0 if hourglass is None else 2.0 * hourglass * weight * apart
-
-
-@compiled_inner
 def _force_terms(x, y, flux, i, j, count, there, along, across, weight, hourglass, terms):
     """(A_i + A_j) `along, across` + 2 ζµ w x_ij of `count` bonds (i + k, j + k)."""
     i1, j1 = i + count, j + count
@@ -94,12 +85,12 @@ def _force_terms(x, y, flux, i, j, count, there, along, across, weight, hourglas
         f_x = (
             (xx_i[k] + xx_j[k]) * along
             + (xy_i[k] + xy_j[k]) * across
-            + _pull(hourglass, weight, xj[k] - xi[k])
+            + pull(hourglass, weight, xj[k] - xi[k])
         )
         f_y = (
             (yx_i[k] + yx_j[k]) * along
             + (yy_i[k] + yy_j[k]) * across
-            + _pull(hourglass, weight, yj[k] - yi[k])
+            + pull(hourglass, weight, yj[k] - yi[k])
         )
         term_x[k] = there[k] * f_x
         term_y[k] = there[k] * f_y
@@ -132,8 +123,8 @@ def _forces_of_block(b, x, y, flux, hourglass, terms, force, block):
         along, across = b.x[p], b.y[p]
         f_x = (flux[XX, i] + flux[XX, j]) * along + (flux[XY, i] + flux[XY, j]) * across
         f_y = (flux[YX, i] + flux[YX, j]) * along + (flux[YY, i] + flux[YY, j]) * across
-        f_x = b.weight[p] * (f_x + _pull(hourglass, 1.0, x[j] - x[i]))
-        f_y = b.weight[p] * (f_y + _pull(hourglass, 1.0, y[j] - y[i]))
+        f_x = b.weight[p] * (f_x + pull(hourglass, 1.0, x[j] - x[i]))
+        f_y = b.weight[p] * (f_y + pull(hourglass, 1.0, y[j] - y[i]))
         force[0, i] += f_x
         force[1, i] += f_y
         force[0, j] -= f_x

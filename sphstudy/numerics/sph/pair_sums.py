@@ -14,8 +14,8 @@ import numpy as np
 from numba import get_thread_id, prange
 
 from sphstudy.numerics.compilation import compiled_inner, compiled_parallel
-from sphstudy.numerics.sph import kernel, viscosity
-from sphstudy.numerics.sph.artificial_stress import ArtificialStress, closeness
+from sphstudy.numerics.sph import artificial_stress, kernel, spin, viscosity
+from sphstudy.numerics.sph.artificial_stress import ArtificialStress
 from sphstudy.numerics.sph.kernel import Kernel
 from sphstudy.numerics.sph.viscosity import Viscosity
 
@@ -53,67 +53,9 @@ class PairTerms(NamedTuple):
 
 
 @compiled_inner
-def _set_spin(spin, skew, k, value):
-    if spin is None:
-        return
-    skew[k] = value
-
-
-@compiled_inner
-def _add_spin(spin, sums, mass, specific, terms, begin, count):
-    """Adds ½ (∂u/∂y - ∂v/∂x), weighted by volume like the strain rate."""
-    if spin is None:
-        return
-    total, skew = sums[6, begin : begin + count], terms[5]
-    for k in range(count):
-        total[k] += mass[k] * specific[k] * skew[k]
-
-
-@compiled_inner
-def _add_spin_of_singles(spin, pairs, low, count, mass, specific, sums, terms):
-    if spin is None:
-        return
-    for k in range(count):
-        i, j = pairs.first[low + k], pairs.second[low + k]
-        sums[6, i] += mass[j] * specific[j] * terms[5, k]
-        sums[6, j] += mass[i] * specific[i] * terms[5, k]
-
-
-@compiled_inner
 def artificial_row(viscosity_term):
     """First of the three rows of R in the pair data."""
     return SOUND if viscosity_term is None else SOUND + 1
-
-
-@compiled_inner
-def _sound_speeds(viscosity_term, data, begin, count):
-    """c of a batch; the densities stand in where no viscosity needs it."""
-    if viscosity_term is None:
-        return data[RHO, begin : begin + count]
-    return data[SOUND, begin : begin + count]
-
-
-@compiled_inner
-def _viscous_pressure(viscosity_term, length, approach, distance_squared, c_sum, rho_sum):
-    if viscosity_term is None:
-        return 0.0
-    return viscosity.pressure(viscosity_term, length, approach, distance_squared, c_sum, rho_sum)
-
-
-@compiled_inner
-def _artificial_stresses(artificial, row, data, begin, count):
-    """R of a batch, xx, yy, xy; the stresses stand in where there is none."""
-    end = begin + count
-    if artificial is None:
-        return data[SXX, begin:end], data[SYY, begin:end], data[SXY, begin:end]
-    return data[row, begin:end], data[row + 1, begin:end], data[row + 2, begin:end]
-
-
-@compiled_inner
-def _artificial_factor(artificial, shape, q):
-    if artificial is None:
-        return 0.0
-    return closeness(artificial, kernel.value(shape, q))
 
 
 @compiled_inner
@@ -133,13 +75,12 @@ def _momentum_terms(model, data, i0, j0, count, terms):
     xx_i, xx_j = data[SXX, i0:i1], data[SXX, j0:j1]
     yy_i, yy_j = data[SYY, i0:i1], data[SYY, j0:j1]
     xy_i, xy_j = data[SXY, i0:i1], data[SXY, j0:j1]
-    c_i = _sound_speeds(model.viscosity, data, i0, count)
-    c_j = _sound_speeds(model.viscosity, data, j0, count)
+    c_i = viscosity.sound_speeds(model.viscosity, SOUND, data, i0, count)
+    c_j = viscosity.sound_speeds(model.viscosity, SOUND, data, j0, count)
     row = artificial_row(model.viscosity)
-    rxx_i, ryy_i, rxy_i = _artificial_stresses(model.artificial, row, data, i0, count)
-    rxx_j, ryy_j, rxy_j = _artificial_stresses(model.artificial, row, data, j0, count)
+    rxx_i, ryy_i, rxy_i = artificial_stress.stresses(model.artificial, row, data, i0, count)
+    rxx_j, ryy_j, rxy_j = artificial_stress.stresses(model.artificial, row, data, j0, count)
     force_x, force_y, grad_xx, grad_yy, grad_xy = terms[0], terms[1], terms[2], terms[3], terms[4]
-    skew = terms[terms.shape[0] - 1]
     length = model.smoothing_length
     per_length = 1.0 / length
     scale = model.normalisation * per_length
@@ -155,7 +96,7 @@ def _momentum_terms(model, data, i0, j0, count, terms):
         factor = scale * kernel.slope(model.kernel, q) / distance
         gx = factor * dx
         gy = factor * dy
-        pi = _viscous_pressure(
+        pi = viscosity.pressure(
             model.viscosity,
             length,
             -(dx * du + dy * dv),
@@ -163,7 +104,7 @@ def _momentum_terms(model, data, i0, j0, count, terms):
             c_i[k] + c_j[k],
             rho_i[k] + rho_j[k],
         )
-        f = _artificial_factor(model.artificial, model.kernel, q)
+        f = artificial_stress.factor(model.artificial, model.kernel, q)
         specific = specific_i[k] * specific_j[k]
         xx = (xx_i[k] + xx_j[k] + f * (rxx_i[k] + rxx_j[k])) * specific - pi
         yy = (yy_i[k] + yy_j[k] + f * (ryy_i[k] + ryy_j[k])) * specific - pi
@@ -173,7 +114,7 @@ def _momentum_terms(model, data, i0, j0, count, terms):
         grad_xx[k] = du * gx
         grad_yy[k] = dv * gy
         grad_xy[k] = 0.5 * (du * gy + dv * gx)
-        _set_spin(model.spin, skew, k, 0.5 * (du * gy - dv * gx))
+        spin.set_term(model.spin, terms, k, 0.5 * (du * gy - dv * gx))
 
 
 @compiled_inner
@@ -228,7 +169,7 @@ def _momentum_of_singles(model, pairs, work, thread, begin, end):
             for row in range(3):
                 sums[3 + row, i] += mass[j] * specific[j] * terms[2 + row, k]
                 sums[3 + row, j] += mass[i] * specific[i] * terms[2 + row, k]
-        _add_spin_of_singles(model.spin, pairs, low, count, mass, specific, sums, terms)
+        spin.add_of_singles(model.spin, pairs, low, count, mass, specific, sums, terms)
 
 
 @compiled_inner
@@ -244,16 +185,18 @@ def _momentum_of_block(model, pairs, work, thread, block):
             _momentum_terms(model, data, i0, j0, count, terms)
             _add_momentum(sums, mass[j0:j1], specific[j0:j1], terms, 1.0, i0, count)
             _add_momentum(sums, mass[i0:i1], specific[i0:i1], terms, -1.0, j0, count)
-            _add_spin(model.spin, sums, mass[j0:j1], specific[j0:j1], terms, i0, count)
-            _add_spin(model.spin, sums, mass[i0:i1], specific[i0:i1], terms, j0, count)
+            spin.add(model.spin, sums, mass[j0:j1], specific[j0:j1], terms, i0, count)
+            spin.add(model.spin, sums, mass[i0:i1], specific[i0:i1], terms, j0, count)
     begin, end = pairs.single_begin[block], pairs.single_begin[block + 1]
     _momentum_of_singles(model, pairs, work, thread, begin, end)
 
 
 @compiled_parallel
-def _momentum_in_parallel(shape, length, normalisation, viscous, artificial, spin, pairs, work, parity):
+def _momentum_in_parallel(
+    shape, length, normalisation, viscous, artificial, turning, pairs, work, parity
+):
     for half in prange((pairs.run_begin.size - parity) // 2):
-        terms = PairTerms(shape, length, normalisation, viscous, artificial, spin)
+        terms = PairTerms(shape, length, normalisation, viscous, artificial, turning)
         _momentum_of_block(terms, pairs, work, get_thread_id(), 2 * half + parity)
 
 

@@ -15,17 +15,17 @@ from typing import NamedTuple
 import numpy as np
 
 from sphstudy.model.constraints import Constraints
-from sphstudy.numerics.compilation import compiled, compiled_inner
-from sphstudy.numerics.sph import bond_sums, bonds, constitutive, viscosity
+from sphstudy.numerics.compilation import compiled
+from sphstudy.numerics.sph import bond_sums, bonds, constitutive
 from sphstudy.numerics.sph import contact as contacts
 from sphstudy.numerics.sph.bonds import Bonds
 from sphstudy.numerics.sph.constitutive import Law
 from sphstudy.numerics.sph.contact import Contact, Surfaces
 from sphstudy.numerics.sph.crack import Crack
+from sphstudy.numerics.sph.hourglass import XX, XY, YX, YY, modulus
+from sphstudy.numerics.sph.hourglass import energy as hourglass_energy
 from sphstudy.numerics.sph.kernel import Kernel
 from sphstudy.numerics.sph.viscosity import Viscosity
-
-XX, XY, YX, YY = range(4)
 
 FLATTEST = 1e-10
 """Smallest ratio of det Σ w X⊗X to its trace squared: below, the neighbours lie on a line."""
@@ -167,16 +167,11 @@ def deformation_gradient(parallel, model, x, y, gradient):
     corrected_gradient(parallel, model.bonds, model.correction, x, y, gradient)
 
 
-@compiled_inner
-def _modulus(hourglass):
-    return 0.0 if hourglass is None else hourglass
-
-
 @compiled
 def _fluxes(model, work):
     """A_i = V_i P_i L_i - ζ µ F_i from the deformation gradients."""
     gradient, flux = work.gradient, work.flux
-    stiffness = _modulus(model.hourglass)
+    stiffness = modulus(model.hourglass)
     for i in range(gradient.shape[1]):
         xx, xy, yx, yy = gradient[XX, i], gradient[XY, i], gradient[YX, i], gradient[YY, i]
         p_xx, p_xy, p_yx, p_yy = constitutive.stress(model.law, xx, xy, yx, yy)
@@ -201,14 +196,6 @@ def force(model, x, y, work, force):
     contacts.add_forces(model.contact, x, y, force)
 
 
-@compiled_inner
-def _misfit(gradient, i, dx, dy, x, y):
-    """|x_ij - F_i X_ij|² [m²]."""
-    off_x = dx - gradient[XX, i] * x - gradient[XY, i] * y
-    off_y = dy - gradient[YX, i] * x - gradient[YY, i] * y
-    return off_x * off_x + off_y * off_y
-
-
 @compiled
 def energies(model, x, y, work):
     """Σ V ψ(F), hourglass energy and energy of contact [J/m] at the positions x, y [N] (m); leaves F in
@@ -221,55 +208,8 @@ def energies(model, x, y, work):
         strain += model.volume[i] * constitutive.energy_density(
             model.law, gradient[XX, i], gradient[XY, i], gradient[YX, i], gradient[YY, i]
         )
-    b = model.bonds
-    misfit = 0.0
-    for r in range(b.start.size):
-        for i in range(b.start[r], b.start[r] + b.length[r]):
-            j = i + b.offset[r]
-            for end in (i, j):
-                w = b.there[b.at[r] + i - b.start[r]] * b.run_weight[r]
-                misfit += w * _misfit(gradient, end, x[j] - x[i], y[j] - y[i], b.run_x[r], b.run_y[r])
-    for p in range(b.first.size):
-        i, j = b.first[p], b.second[p]
-        for end in (i, j):
-            misfit += b.weight[p] * _misfit(gradient, end, x[j] - x[i], y[j] - y[i], b.x[p], b.y[p])
-    return strain, 0.5 * _modulus(model.hourglass) * misfit, contacts.energy(model.contact, x, y)
-
-
-@compiled_inner
-def _add_viscous(viscous, model, velocity_x, velocity_y, x, y, i, j, w, force):
-    """Π_ij of (2.21) along the line between the particles as they stand: keeps both momenta."""
-    dx, dy = x[j] - x[i], y[j] - y[i]
-    approach = dx * (velocity_x[j] - velocity_x[i]) + dy * (velocity_y[j] - velocity_y[i])
-    rho_i, rho_j = model.mass[i] / model.volume[i], model.mass[j] / model.volume[j]
-    pressure = viscosity.pressure(
-        viscous,
-        model.smoothing_length,
-        approach,
-        dx * dx + dy * dy,
-        2.0 * model.wave_speed,
-        rho_i + rho_j,
-    )
-    push = w * rho_i * rho_j * pressure
-    force[0, i] -= push * dx
-    force[1, i] -= push * dy
-    force[0, j] += push * dx
-    force[1, j] += push * dy
-
-
-@compiled
-def add_viscosity(viscous, model, velocity_x, velocity_y, x, y, force):
-    """Adds the forces of the artificial viscosity [2, N] (N/m), unless `viscous` is None."""
-    if viscous is None:
-        return
-    b = model.bonds
-    for r in range(b.start.size):
-        for i in range(b.start[r], b.start[r] + b.length[r]):
-            w = b.there[b.at[r] + i - b.start[r]] * b.run_weight[r]
-            _add_viscous(viscous, model, velocity_x, velocity_y, x, y, i, i + b.offset[r], w, force)
-    for p in range(b.first.size):
-        i, j, w = b.first[p], b.second[p], b.weight[p]
-        _add_viscous(viscous, model, velocity_x, velocity_y, x, y, i, j, w, force)
+    kept = hourglass_energy(model.hourglass, model.bonds, gradient, x, y)
+    return strain, kept, contacts.energy(model.contact, x, y)
 
 
 @compiled

@@ -9,10 +9,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sphstudy.model.constraints import Constraints, prescribe, release
+from sphstudy.model.constraints import Constraints
 from sphstudy.numerics.compilation import compiled, compiled_inner
-from sphstudy.numerics.sph import neighbours, pair_sums, smoothing_sums
-from sphstudy.numerics.sph.artificial_stress import ArtificialStress, principal_pressure
+from sphstudy.numerics.sph import (
+    artificial_stress,
+    damping,
+    neighbours,
+    pair_sums,
+    smearing,
+    spin,
+    viscosity,
+    xsph,
+)
+from sphstudy.numerics.sph.artificial_stress import ArtificialStress
+from sphstudy.numerics.sph.constraints import prescribe, release
 from sphstudy.numerics.sph.crack import Crack
 from sphstudy.numerics.sph.kernel import Kernel
 from sphstudy.numerics.sph.neighbours import Neighbours
@@ -59,11 +69,11 @@ class Model(NamedTuple):
 def workspace(model: Model, count: int, threads: int = 1) -> Workspace:
     """Workspace for `count` particles and so many threads; rows exist only for the terms in the model."""
     rows = pair_sums.SOUND + (model.viscosity is not None) + 3 * (model.artificial is not None)
-    spin = int(model.spin is not None)
+    turning = int(model.spin is not None)
     return Workspace(
         pair_data=np.zeros((rows, count)),
-        sums=np.zeros((6 + spin, count)),
-        terms=np.zeros((threads, 5 + spin, pair_sums.BATCH)),
+        sums=np.zeros((6 + turning, count)),
+        terms=np.zeros((threads, 5 + turning, pair_sums.BATCH)),
         gathered=np.zeros((threads, rows, 2 * pair_sums.BATCH)),
         parallel=True if threads > 1 else None,
     )
@@ -116,26 +126,6 @@ def _load_motion(model, state, data):
 
 
 @compiled_inner
-def _load_sound_speed(viscosity, bulk_modulus, state, data):
-    """c_i = √(K/ρ_i) (2.22)."""
-    if viscosity is None:
-        return
-    for i in range(state.shape[1]):
-        data[pair_sums.SOUND, i] = np.sqrt(bulk_modulus / state[RHO, i])
-
-
-@compiled_inner
-def _load_artificial_stress(artificial, row, state, data):
-    if artificial is None:
-        return
-    for i in range(state.shape[1]):
-        xx, yy, xy = principal_pressure(artificial, state[SXX, i], state[SYY, i], state[SXY, i])
-        data[row, i] = xx
-        data[row + 1, i] = yy
-        data[row + 2, i] = xy
-
-
-@compiled_inner
 def _load_stress(model, state, data):
     """What the momentum pass needs besides the motion: stress, 1/ρ, c, R."""
     for i in range(state.shape[1]):
@@ -143,53 +133,29 @@ def _load_stress(model, state, data):
         data[pair_sums.SXX, i] = state[SXX, i]
         data[pair_sums.SYY, i] = state[SYY, i]
         data[pair_sums.SXY, i] = state[SXY, i]
-    _load_sound_speed(model.viscosity, model.bulk_modulus, state, data)
+    viscosity.load_sound_speed(model.viscosity, model.bulk_modulus, state[RHO], pair_sums.SOUND, data)
     row = pair_sums.artificial_row(model.viscosity)
-    _load_artificial_stress(model.artificial, row, state, data)
+    artificial_stress.load(model.artificial, row, state[SXX], state[SYY], state[SXY], data)
 
 
 @compiled_inner
-def _smoothed_velocity(xsph, model, state, pairs, amplitude_rate, work):
-    """ṽ of (2.20) into the pair data; constrained particles keep the prescribed velocity."""
-    data, sums = work.pair_data, work.sums
-    _load_motion(model, state, data)
-    if xsph is None:
-        return
-    smoothing_sums.sum_smoothing(work.parallel, model, pairs, work)
-    for i in range(data.shape[1]):
-        data[pair_sums.U, i] += xsph * sums[0, i]
-        data[pair_sums.V, i] += xsph * sums[1, i]
-    if model.prescribe_smoothed:
-        prescribe(model.constraints, data[pair_sums.U], data[pair_sums.V], amplitude_rate)
+def _smoothed_velocity(model, state, pairs, amplitude_rate, work):
+    """ṽ into the pair data, beside what else moves."""
+    _load_motion(model, state, work.pair_data)
+    xsph.smooth(model.xsph, model, pairs, amplitude_rate, work)
 
 
 @compiled
 def begin_step(smoothing, model, state, pairs, amplitude_rate, work):
-    """Prescribes velocities and smears them, v ← (1-η) v + η ṽ (2.26), unless `smoothing` η is None."""
+    """Prescribes velocities and smears them (2.26), unless `smoothing`, its η, is None."""
     prescribe(model.constraints, state[VX], state[VY], amplitude_rate)
     if smoothing is None:
         return
-    _smoothed_velocity(model.xsph, model, state, pairs, amplitude_rate, work)
+    _smoothed_velocity(model, state, pairs, amplitude_rate, work)
     data = work.pair_data
-    for i in range(state.shape[1]):
-        state[VX, i] += smoothing * (data[pair_sums.U, i] - state[VX, i])
-        state[VY, i] += smoothing * (data[pair_sums.V, i] - state[VY, i])
+    smearing.smear(smoothing, data[pair_sums.U], data[pair_sums.V], state[VX], state[VY])
     if model.prescribe_again:
         prescribe(model.constraints, state[VX], state[VY], amplitude_rate)
-
-
-@compiled_inner
-def _corotate(spin, state, sums, rate):
-    """Jaumann's rate: adds ωσ - σω with the spin ω_xy = ½ (∂u/∂y - ∂v/∂x), so that stress turns with the
-    body (Gray, Monaghan & Swift 2001, equation 4). The thesis has none.
-    """
-    if spin is None:
-        return
-    for i in range(state.shape[1]):
-        xx, yy, xy = state[SXX, i], state[SYY, i], state[SXY, i]
-        rate[SXX, i] += 2.0 * sums[6, i] * xy
-        rate[SYY, i] -= 2.0 * sums[6, i] * xy
-        rate[SXY, i] += sums[6, i] * (yy - xx)
 
 
 @compiled
@@ -200,7 +166,7 @@ def rates(model, state, pairs, amplitude_rate, work, rate):
     damping: `constrain` finishes them.
     """
     data, sums = work.pair_data, work.sums
-    _smoothed_velocity(model.xsph, model, state, pairs, amplitude_rate, work)
+    _smoothed_velocity(model, state, pairs, amplitude_rate, work)
     _load_stress(model, state, data)
     pair_sums.sum_momentum(work.parallel, model, pairs, work)
     two_mu = 2.0 * model.shear_modulus
@@ -214,20 +180,12 @@ def rates(model, state, pairs, amplitude_rate, work, rate):
         rate[SXX, i] = mean_rate + two_mu * sums[3, i]
         rate[SYY, i] = mean_rate + two_mu * sums[4, i]
         rate[SXY, i] = two_mu * sums[5, i]
-    _corotate(model.spin, state, sums, rate)
-
-
-@compiled_inner
-def _damp(damping, rate, data):
-    if damping is None:
-        return
-    for i in range(rate.shape[1]):
-        rate[VX, i] -= damping * data[pair_sums.U, i]
-        rate[VY, i] -= damping * data[pair_sums.V, i]
+    spin.corotate(model.spin, sums, state[SXX], state[SYY], state[SXY], rate[SXX], rate[SYY], rate[SXY])
 
 
 @compiled
 def constrain(model, rate, work):
     """Adds the damping -γ ṽ to the accelerations and removes those of constrained freedoms."""
-    _damp(model.damping, rate, work.pair_data)
+    data = work.pair_data
+    damping.add(model.damping, data[pair_sums.U], data[pair_sums.V], rate[VX], rate[VY])
     release(model.constraints, rate[VX], rate[VY])

@@ -43,7 +43,9 @@ def test_time_step_from_the_highest_frequency():
     settings = ("scene=plate", "method=tl", "n=5", "h=1.3", "solve.time_step=frequency")
     with session() as hydra:
         config = hydra.points(list(settings), sweep=False)[0][0].config
-    omega = method_module(config.method.kind).highest_frequency(config)
+    omega = method_module(config.method.kind).highest_frequency(
+        scene_module(config.scene.kind).build(config), config
+    )
     assert planned(*settings, "solve.safety=0.5")[1] == pytest.approx(0.5 * 2.0 / omega, rel=1e-12)
     # The rule at C = 1 lies a little below the limit of stability.
     by_rule = planned(*settings[:-1], "solve.courant=1")[1]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sphstudy.model.material import Material
-from sphstudy.numerics.sph import constitutive, total_lagrangian
+from sphstudy.numerics.sph import constitutive, total_lagrangian, viscosity
 from sphstudy.numerics.sph.kernel import KERNELS
 from sphstudy.numerics.sph.viscosity import Viscosity
 from tests.numerics.sph import test_bonds
@@ -104,7 +104,7 @@ def energies(made, positions):
 def viscous_force(made, positions, velocity):
     """f [2, N] of the artificial viscosity alone."""
     found = np.zeros((2, made.x.size))
-    total_lagrangian.add_viscosity(made.viscosity, made, *velocity, *positions, found)
+    viscosity.add_forces(made.viscosity, made, *velocity, *positions, found)
     return found
 
 

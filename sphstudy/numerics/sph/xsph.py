@@ -5,6 +5,7 @@ from numba import get_thread_id, prange
 
 from sphstudy.numerics.compilation import compiled_inner, compiled_parallel
 from sphstudy.numerics.sph import kernel
+from sphstudy.numerics.sph.constraints import prescribe
 from sphstudy.numerics.sph.pair_sums import BATCH, MASS, RHO, PairTerms, U, V, X, Y, gather
 
 
@@ -81,7 +82,7 @@ def _smooth_in_parallel(shape, length, normalisation, pairs, work, parity):
 
 
 @compiled_inner
-def sum_smoothing(parallel, model, pairs, work):
+def _sum_smoothing(parallel, model, pairs, work):
     """Row 0, 1 of the sums: Σ_j m_j (v_j - v_i) W_ij / ((ρ_i + ρ_j)/2)."""
     work.sums[:2] = 0.0
     for parity in range(2):
@@ -93,3 +94,19 @@ def sum_smoothing(parallel, model, pairs, work):
                 model.kernel, model.smoothing_length, model.normalisation, pairs, work, parity
             )
     _smooth_singles(model, pairs, work, 0, pairs.single_begin[-1], pairs.singles[0])
+
+
+@compiled_inner
+def smooth(xsph, model, pairs, amplitude_rate, work):
+    """Turns the velocities of the pair data into ṽ of (2.20), unless `xsph`, its µ, is None; constrained
+    particles keep the prescribed velocity.
+    """
+    if xsph is None:
+        return
+    data, sums = work.pair_data, work.sums
+    _sum_smoothing(work.parallel, model, pairs, work)
+    for i in range(data.shape[1]):
+        data[U, i] += xsph * sums[0, i]
+        data[V, i] += xsph * sums[1, i]
+    if model.prescribe_smoothed:
+        prescribe(model.constraints, data[U], data[V], amplitude_rate)

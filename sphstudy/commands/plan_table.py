@@ -8,6 +8,7 @@ from sphstudy.configuration.run_settings import flattened
 from sphstudy.console import print_table
 from sphstudy.running.plan import Planned, prediction
 from sphstudy.store import identity
+from sphstudy.store.adoption import adoptable, translated
 from sphstudy.store.store import Store, read_summary
 from sphstudy.table import Column, Table
 
@@ -60,9 +61,13 @@ def _older_records(planned: list[Planned], store: Store) -> dict[int, str]:
 
 def _difference(attributes: dict, point: Point) -> str:
     """What sets a stored record apart from a point of the same label."""
-    stored = flattened(json.loads(attributes["configuration"]))
+    configuration = json.loads(attributes["configuration"])
+    earlier = adoptable(attributes)
+    stored = flattened(translated(configuration) if earlier else configuration)
     now = point.config.flat()
     changed = [key for key in now if stored.get(key) != now[key]]
+    if not changed and earlier:
+        return "stored by an earlier version, with the same numbers: `sphstudy adopt` keeps it"
     if not changed and attributes["numerics_version"] != identity.numerics_version(point.config):
         return "changed numerics: the code of scene, method or solver"
     told = ", ".join(f"{key}={stored.get(key)} is stored" for key in changed[:3])

@@ -6,7 +6,9 @@ import os
 import pytest
 
 from sphstudy.__main__ import main
+from sphstudy.commands.plan_table import print_plan
 from sphstudy.running.one_run import compute
+from sphstudy.running.plan import plan
 from sphstudy.store import adoption, identity
 from sphstudy.store.adoption import adopt, adoptable
 from sphstudy.store.lock import Claim
@@ -59,6 +61,8 @@ def test_an_old_record_serves_today_with_the_same_numbers(store, monkeypatch, ca
     before, summary = load(old), read_summary(old)
     assert adoptable(summary.attributes)
     assert store.status(point.config) == "missing"
+    print_plan(plan([point], store), store, 1)
+    assert "with the same numbers: `sphstudy adopt` keeps it" in capsys.readouterr().out
     assert main(["prune"]) == 0
     assert old.name not in capsys.readouterr().out
     assert main(["adopt"]) == 0

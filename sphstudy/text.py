@@ -1,5 +1,6 @@
 """Numbers, units and settings as text for people: few digits, real minus signs, powers of ten."""
 
+import hashlib
 import math
 import re
 from typing import Any
@@ -124,6 +125,14 @@ def duration(seconds: float, digits: int = 3) -> str:
         if seconds >= 2.0 * size:
             return f"{number(seconds / size, digits)} {name}"
     return f"{number(seconds, digits)} s"
+
+
+def short_name(name: str, longest: int = 120) -> str:
+    """A name of a file; the end of one that is too long for a file system is replaced by its hash."""
+    if len(name.encode()) <= longest:
+        return name
+    digest = hashlib.sha256(name.encode()).hexdigest()[:8]
+    return name.encode()[: longest - 9].decode(errors="ignore") + f"-{digest}"
 
 
 def counted(count: int, noun: str) -> str:

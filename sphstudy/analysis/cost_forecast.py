@@ -84,7 +84,7 @@ class Rates:
 
 def rates(store: Store) -> Rates:
     """What the runs in the store that are done took, on this processor and by this version's numerics."""
-    paths = [path for path in sorted(store.runs.glob("*.nc")) if not path.name.startswith(".")]
+    paths = list(store.files())
     return Rates(_measurements(paths[:: 1 + len(paths) // ENOUGH]))
 
 

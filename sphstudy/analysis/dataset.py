@@ -16,6 +16,7 @@ from sphstudy.store import identity, netcdf, provenance, record
 from sphstudy.store.record import STATUS
 from sphstudy.store.store import Store
 from sphstudy.store.summary import Summary
+from sphstudy.text import short_name
 
 SPARSEST = 8
 """If a full grid would have more than this many cells per point, the dataset is a list of points."""
@@ -144,4 +145,4 @@ def _name(configs: list[RunConfig]) -> str:
     scenes = "+".join(dict.fromkeys(c.scene.name for c in configs))
     methods = "+".join(dict.fromkeys(c.method.name for c in configs))
     digest = hashlib.sha256(" ".join(sorted(identity.key(c) for c in configs)).encode())
-    return f"{scenes}-{methods}-{digest.hexdigest()[:8]}"
+    return f"{short_name(f'{scenes}-{methods}')}-{digest.hexdigest()[:8]}"

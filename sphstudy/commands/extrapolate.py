@@ -10,6 +10,7 @@ Richardson extrapolation of what was swept over n: v0 of v0 + c Δ^p. With
 """
 
 import math
+import os
 from pathlib import Path
 
 import xarray as xr
@@ -21,7 +22,8 @@ from sphstudy.commands.parser import Request
 from sphstudy.configuration import study_file
 from sphstudy.console import print_table
 from sphstudy.errors import ConfigurationError
-from sphstudy.store.netcdf import read_dataset, write
+from sphstudy.store.netcdf import UNREADABLE, read_dataset, write
+from sphstudy.store.store import summarised
 from sphstudy.table import Column, Table
 from sphstudy.text import NOTHING, with_uncertainty
 
@@ -33,8 +35,8 @@ def run(request: Request) -> int:
     order = request.number("order", math.nan, *ORDERS) if given else None
     dataset = _dataset(name, request.results)
     output = Path(request.options["output"]) if "output" in request.options else None
-    if output and output.resolve() == Path(dataset.encoding["source"]).resolve():
-        raise ConfigurationError([f"--output={output}: that is the dataset itself"])
+    if output:
+        _refuse_what_is_there(output, Path(dataset.encoding["source"]), request.has("overwrite"))
     try:
         found = {metric: series(dataset, metric, order) for metric in metrics}
     except ConfigurationError as error:
@@ -50,6 +52,21 @@ def run(request: Request) -> int:
             raise ConfigurationError([f"--output={output}: cannot be written ({reason})"]) from None
         print(f"dataset: {output}")
     return 0
+
+
+def _refuse_what_is_there(output: Path, source: Path, overwrite: bool) -> None:
+    """Raises ConfigurationError if the file may not be written."""
+    if output.resolve() == source.resolve():
+        raise ConfigurationError([f"--output={output}: that is the dataset itself"])
+    if not os.path.lexists(output):
+        return
+    if not overwrite:
+        raise ConfigurationError([f"--output={output}: is there already; --overwrite replaces it"])
+    try:
+        summarised(output)
+    except UNREADABLE:
+        return
+    raise ConfigurationError([f"--output={output}: is the record of a run, which is not replaced"])
 
 
 def _dataset(name: str, results: str) -> xr.Dataset:

@@ -87,7 +87,8 @@ COMMANDS = {
     "extrapolate": Command(
         (
             Option("order", "order of convergence; observed if it is not given", "P"),
-            Option("output", "keep the result in a netCDF file", "FILE"),
+            Option("output", "keep the result in a new netCDF file", "FILE"),
+            Option("overwrite", "replace that file if it is there"),
             _RESULTS,
         ),
         least=2,

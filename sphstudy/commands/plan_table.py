@@ -47,7 +47,7 @@ def _older_records(planned: list[Planned], store: Store) -> dict[int, str]:
     """For points without a record, why one of the same label does not serve: by id of the point."""
     wanted = {p.point.config.label: p for p in planned if p.status == "missing"}
     found: dict[int, str] = {}
-    for path in store.runs.glob("*.nc"):
+    for path in store.files():
         label = path.stem.rpartition("-")[0]
         if label not in wanted or (summary := read_summary(path)) is None:
             continue

@@ -70,9 +70,9 @@ def _of_folder(folder: str) -> list[Line]:
     store = Store(folder)
     if not store.runs.is_dir():
         raise ConfigurationError([f"results={folder}: there are no runs"])
-    stems = {path.stem for path in store.runs.glob("*.nc") if not path.name.startswith(".")}
-    claimed = {path.name.removesuffix(CLAIM) for path in store.runs.glob(f"*{CLAIM}")}
-    kept = {path.stem for path in store.runs.glob(f"*{CHECKPOINT}")}
+    stems = {path.stem for path in store.files()}
+    claimed = {path.name.removesuffix(CLAIM) for path in store.files(CLAIM)}
+    kept = {path.stem for path in store.files(CHECKPOINT)}
     # Files that are set aside while they are read here are listed below.
     lines = [
         line
@@ -81,7 +81,7 @@ def _of_folder(folder: str) -> list[Line]:
     ]
     lines += [
         Line(path.stem, "unreadable", float("nan"), "set aside; the run is done again when asked for")
-        for path in sorted(store.runs.glob("*.unreadable"))
+        for path in store.files(".unreadable")
     ]
     return lines
 

@@ -2,6 +2,8 @@
 
 import dataclasses
 import os
+import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -15,6 +17,7 @@ from hydra.core.plugins import Plugins
 from hydra.errors import HydraException
 from hydra.plugins.search_path_plugin import SearchPathPlugin
 from hydra.types import RunMode
+from hydra.version import VersionBase, setbase
 from omegaconf import OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
@@ -32,11 +35,13 @@ from sphstudy.configuration.overrides import (
 )
 from sphstudy.configuration.run_settings import RunConfig, validate
 from sphstudy.errors import ConfigurationError, unknown
+from sphstudy.text import counted
 
 LAUNCHERS = ("local", "basic", "slurm")
 """Side by side on this machine, one after the other in this process, jobs of a SLURM cluster."""
 
 _GROUPS = ("scene", "method", "solve")
+_ONE_AT_A_TIME = threading.Lock()
 SECTIONS = ("title", "metrics", "headline", "protocol", "source", "bounds", "quoted")
 """Sections of a scene's file that are no settings of a run: the catalogue reads them."""
 
@@ -88,13 +93,24 @@ def session(config_dir: str | None = None) -> Iterator["Session"]:
     """
     if config_dir is not None:
         catalogue.add_settings(config_dir)
-    with _hydra():
-        yield Session()
+    yield Session()
 
 
-def _hydra() -> initialize_config_dir:
-    folder = str(catalogue.folder("conf").resolve())
-    return initialize_config_dir(folder, version_base="1.3", job_name="sphstudy")
+@contextmanager
+def _borrowed() -> Iterator[None]:
+    """Hydra for this package alone. It is one in a process: a program that uses it for itself finds it as
+    it was, and threads take turns.
+    """
+    with _ONE_AT_A_TIME:
+        hydra, base = GlobalHydra.instance(), VersionBase.instance()
+        before, hydra.hydra = hydra.hydra, None
+        base_before = base.version_base
+        setbase("1.3")
+        try:
+            yield
+        finally:
+            GlobalHydra.instance().hydra = before
+            base.version_base = base_before
 
 
 Plugins.instance().register(_OwnSettings)
@@ -107,7 +123,9 @@ class Session:
         self._begin()
 
     def _begin(self) -> None:
-        self._loader = GlobalHydra.instance().config_loader()
+        folder = str(catalogue.folder("conf").resolve())
+        with _borrowed(), initialize_config_dir(folder, version_base="1.3", job_name="sphstudy"):
+            self._loader = GlobalHydra.instance().config_loader()
         # Hydra looks through its folders every time it is asked.
         self._grammar = Grammar(cache(self._loader.get_group_options))
         self._composed: dict[tuple[str, ...], dict[str, Any]] = {}
@@ -119,7 +137,7 @@ class Session:
     def points(
         self, arguments: list[str], sweep: bool, skipped: list[str] | None = None
     ) -> tuple[list[Point], str]:
-        """All points that overrides span, validated.
+        """All points that overrides span, validated; of equal ones (h=1.3,1.30) the first, which is said.
 
         Parameters
         ----------
@@ -165,7 +183,12 @@ class Session:
             complaints["results: all points of a sweep need the same folder"] = None
         if complaints:
             raise ConfigurationError(list(complaints))
-        return points, results.pop()
+        unlike: dict[str, Point] = {}
+        for point in points:
+            unlike.setdefault(point.config.text, point)
+        if (equal := len(points) - len(unlike)) > 0:
+            print(f"{counted(equal, 'point')} left out, equal to others", file=sys.stderr)
+        return list(unlike.values()), results.pop()
 
     def composed(self, arguments: list[str]) -> dict[str, Any]:
         """What overrides, of one value each, make of the settings; values are not validated.
@@ -191,7 +214,8 @@ class Session:
             if key == "hydra/launcher" and value not in LAUNCHERS:
                 raise ConfigurationError([unknown("launcher", value, LAUNCHERS)])
         try:
-            config = self._loader.load_configuration("config", overrides, RunMode.MULTIRUN)
+            with _borrowed():
+                config = self._loader.load_configuration("config", overrides, RunMode.MULTIRUN)
         except HydraException as error:
             raise ConfigurationError([f"{' '.join(overrides)}: {error}".splitlines()[0]]) from None
         settings: Any = OmegaConf.to_container(config.hydra.launcher)
@@ -208,8 +232,6 @@ class Session:
         if places:
             for place in places:
                 catalogue.add_settings(place)
-            GlobalHydra.instance().clear()
-            _hydra()
             self._begin()
         apart = {*launcher_overrides(arguments), *(a for a in arguments if a.startswith(SEARCH_PATH))}
         overrides = self._grammar.parsed([a for a in arguments if a not in apart])
@@ -235,7 +257,8 @@ class Session:
 
     def _files(self, groups: list[str]) -> dict[str, Any]:
         """What the files of a choice of groups say, with the protocol of scene, method and solver."""
-        config = self._loader.load_configuration("config", groups, RunMode.RUN)
+        with _borrowed():
+            config = self._loader.load_configuration("config", groups, RunMode.RUN)
         names = [str(config.hydra.runtime.choices[group]) for group in _GROUPS]
         own = OmegaConf.create({k: config[k] for k in config if k != "hydra" and k not in SECTIONS})
         values: Any = OmegaConf.to_container(own, resolve=True)

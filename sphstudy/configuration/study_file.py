@@ -30,6 +30,7 @@ from sphstudy import catalogue
 from sphstudy.configuration.execution import SETTINGS
 from sphstudy.errors import ConfigurationError, unknown
 from sphstudy.parameters import described, parameters
+from sphstudy.text import short_name
 
 Setting = int | float | str | bool | None
 Values = Setting | list[Setting]
@@ -109,7 +110,7 @@ def results_name(name: str, overrides: list[str]) -> str:
         What replaces settings of its file; those that make other runs become part of the name.
     """
     changed = [o for o in overrides if o.partition("=")[0] not in SETTINGS]
-    return re.sub(r"[^\w.+=-]+", "_", "-".join([name, *changed]))
+    return short_name(re.sub(r"[^\w.+=-]+", "_", "-".join([name, *changed])))
 
 
 def load(name: str) -> Study:

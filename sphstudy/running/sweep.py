@@ -10,7 +10,8 @@ from sphstudy.configuration.composition import Point, Session
 from sphstudy.running.launching import Launching
 from sphstudy.running.plan import kept, plan, prediction
 from sphstudy.running.progress import display
-from sphstudy.store.store import Store
+from sphstudy.store.lock import remove_lost
+from sphstudy.store.store import CLAIM, Store, record_beside
 
 
 def sweep(
@@ -49,6 +50,8 @@ def sweep(
         If the folder cannot be written, a solver refuses a point, or the launcher is wrong.
     """
     store.prepare()
+    # A process that was killed between its record and its claim leaves both.
+    remove_lost(path for path in store.files(CLAIM) if record_beside(path).exists())
     planned = plan(points, store, force)
     if remark := kept(planned):
         print(remark, file=sys.stderr)

@@ -1,7 +1,7 @@
 """Writing a file so that its place holds either the old file or the whole new one."""
 
 import os
-import tempfile
+import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -33,16 +33,14 @@ def replacing(path: Path, durable: bool = True) -> Iterator[Path]:
         If the disk does not take it.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=UNFINISHED)
-    os.close(handle)
-    temporary = Path(name)
+    temporary = path.with_name(f"{UNFINISHED}{uuid.uuid4().hex}")
+    # Not by tempfile, whose files are their owner's alone: who may read results, umask says.
+    temporary.open("xb").close()
     try:
         yield temporary
         if durable:
             with open(temporary, "rb") as file:
                 os.fsync(file.fileno())
-        # Others may read results: mkstemp gives a file to its owner alone.
-        os.chmod(temporary, 0o644)
         os.replace(temporary, path)
     except BaseException:
         temporary.unlink(missing_ok=True)

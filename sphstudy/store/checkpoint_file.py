@@ -1,8 +1,9 @@
-"""Checkpoints of one run in a file beside its record: written by wall time, whole or not at all."""
+"""Checkpoints of a run in a sealed file beside its record: written by wall time, whole or not at all."""
 
 import sys
 import time
 import zipfile
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 from sphstudy.numerics.compile_timer import compiling_so_far
 from sphstudy.numerics.solvers.checkpoint import Checkpoint
 from sphstudy.store.atomic import replacing
+from sphstudy.store.checksum import check_seal, seal
 
 
 class CheckpointFile:
@@ -39,6 +41,8 @@ class CheckpointFile:
     def load(self) -> Checkpoint | None:
         """The checkpoint in the file; None if there is none, or (with a line on stderr) it is damaged."""
         try:
+            if not check_seal(self.path):
+                raise ValueError("it has no digest")
             with open(self.path, "rb") as file:
                 arrays = dict(np.load(file, allow_pickle=False))
             checkpoint = Checkpoint.from_arrays(arrays)
@@ -71,7 +75,10 @@ class CheckpointFile:
         arrays: Any = {"spent": np.array(spent), **checkpoint.arrays()}
         with replacing(self.path) as temporary, open(temporary, "wb") as file:
             np.savez(file, **arrays)
+            file.close()
+            seal(temporary, "")
 
     def remove(self) -> None:
-        """Removes the file: the run has its record."""
-        self.path.unlink(missing_ok=True)
+        """Removes the file: the run has its record. A folder of that name stays."""
+        with suppress(IsADirectoryError):
+            self.path.unlink(missing_ok=True)

@@ -10,6 +10,7 @@ its own, so that it can be trusted without reading the whole file:
 
 import hashlib
 import os
+import stat
 import zlib
 from pathlib import Path
 from typing import Any
@@ -31,6 +32,29 @@ _AT_ONCE = 1 << 14
 """Bytes at the end of a file that are read first: more than foot and text of nearly all records."""
 
 _CHANGED = "its bytes are not those that were written"
+
+
+def open_file(path: Path) -> int:
+    """A file opened for reading, as a descriptor.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Raises
+    ------
+    OSError
+        If it cannot be opened.
+    ValueError
+        If it is a folder, a pipe or a device: to read from a pipe is to wait for whoever writes to it.
+    """
+    # A pipe is opened without waiting; a file does not care.
+    file = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+    if not stat.S_ISREG(os.fstat(file).st_mode):
+        os.close(file)
+        raise ValueError("no file, but a folder, a pipe or a device")
+    return file
 
 
 def seal(path: Path, text: str) -> None:
@@ -65,7 +89,7 @@ def check_seal(path: Path) -> bool:
     ValueError
         If a byte has changed since the file was sealed.
     """
-    with open(path, "rb") as file:
+    with open(open_file(path), "rb") as file:
         left = file.seek(0, os.SEEK_END) - _DIGEST
         file.seek(max(0, left - len(_MARK)))
         if file.read(len(_MARK)) not in (_MARK, _WITHOUT_OWN):
@@ -95,7 +119,7 @@ def sealed_text(path: Path) -> str | None:
         If the text or the size of the file has changed since the file was sealed.
     """
     # Twenty thousand records are looked at in a row: no more calls than it takes.
-    file = os.open(path, os.O_RDONLY)
+    file = open_file(path)
     try:
         size = os.fstat(file).st_size
         end = os.pread(file, _AT_ONCE, max(0, size - _AT_ONCE))

@@ -12,7 +12,7 @@ import os
 import platform
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -121,10 +121,18 @@ def _locked(folder: Path) -> Iterator[None]:
         yield
 
 
+def remove_lost(claims: Iterable[Path]) -> None:
+    """Removes those claims whose process is gone."""
+    for path in claims:
+        with _locked(path.parent), suppress(OSError):
+            if not is_alive(path):
+                path.unlink()
+
+
 def holder(path: Path) -> Holder | None:
     """What a claim says, or None if there is none or it cannot be read."""
     # Most runs have none, and to ask is faster than to fail.
-    if not os.path.exists(path):
+    if not os.path.isfile(path):
         return None
     try:
         values = json.loads(path.read_text())

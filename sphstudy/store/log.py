@@ -1,6 +1,7 @@
 """The log beside a record: what became of the run, try after try, and what libraries warned of."""
 
 import logging
+import os
 import platform
 import time
 import warnings
@@ -10,9 +11,12 @@ from pathlib import Path
 
 
 class _File(logging.FileHandler):
-    """A file; a disk that is full costs lines of it, not the run."""
+    """A file; a full disk costs its lines, not the run, and so does a folder or a pipe of that name."""
 
     def emit(self, record: logging.LogRecord) -> None:
+        # To write to a pipe is to wait for whoever reads from it.
+        if os.path.lexists(self.baseFilename) and not os.path.isfile(self.baseFilename):
+            return
         # The first line opens the file, which may fail as well.
         with suppress(OSError):
             super().emit(record)

@@ -46,29 +46,28 @@ def stale(store: Store) -> Iterator[Stale]:
         Its folder of runs is there.
     """
     stems = set()
-    for path in sorted(store.runs.glob("*.nc")):
-        if path.name.startswith("."):
-            continue
+    for path in store.files():
         reason = _why(store, path)
         if reason:
             yield Stale(path, reason, path.stat().st_size)
         else:
             stems.add(path.stem)
-    alive = {path.name.removesuffix(CLAIM) for path in store.runs.glob(f"*{CLAIM}") if is_alive(path)}
+    alive = {path.name.removesuffix(CLAIM) for path in store.files(CLAIM) if is_alive(path)}
     for suffix, reason in (
         (CLAIM, "a claim whose process is gone"),
         (".log", "a log of a run without a record"),
     ):
-        for path in sorted(store.runs.glob(f"*{suffix}")):
+        for path in store.files(suffix):
             stem = path.name.removesuffix(suffix)
-            if stem not in alive and stem not in stems:
+            # A claim beside a record: its process was killed between the two.
+            if stem not in alive and (suffix == CLAIM or stem not in stems):
                 yield Stale(path, reason, path.stat().st_size)
     # Whoever was interrupted, failed or timed out goes on from it: only age says that nobody will.
-    for path in sorted(store.runs.glob(f"*{CHECKPOINT}")):
+    for path in store.files(CHECKPOINT):
         found = path.stat()
         if path.stem not in alive and time.time() - found.st_mtime > FORGOTTEN:
             yield Stale(path, "a checkpoint that nobody went on from for a month", found.st_size)
-    for path in sorted(store.runs.glob("*.unreadable")):
+    for path in store.files(".unreadable"):
         yield Stale(path, "no record: set aside when it was looked for", path.lstat().st_size)
     for path in sorted(store.runs.glob(".index.sqlite*")):
         yield Stale(path, "an index that earlier versions kept", path.stat().st_size)

@@ -16,8 +16,10 @@ import errno
 import itertools
 import json
 import os
+import re
 import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import xarray as xr
@@ -39,6 +41,9 @@ _NEEDED = ("title", "message", "key", "configuration", "numerics_version", "date
 CLAIM, CHECKPOINT = ".running.json", ".checkpoint"
 """Endings of files beside a record that stand for a run in progress, or interrupted."""
 
+_STEM = re.compile(r"[^.].*-[0-9a-f]{16}(\.\d+)?")
+"""Names of runs, <label>-<key>, set aside once more: with a number. All other files are not ours."""
+
 REUSED = ("done", "diverged")
 """Outcomes that are results: such a point is not computed again."""
 
@@ -55,6 +60,12 @@ class Store:
     def __init__(self, folder: str | Path):
         self.folder = Path(folder)
         self.runs = self.folder / "runs"
+
+    def files(self, suffix: str = ".nc") -> Iterator[Path]:
+        """Files of runs with this ending, by name; files of other programs in the folder are left out."""
+        for path in sorted(self.runs.glob(f"*{suffix}")):
+            if _STEM.fullmatch(path.name.removesuffix(suffix)):
+                yield path
 
     def prepare(self) -> None:
         """Makes the folders. Raises ConfigurationError if they cannot be written."""
@@ -135,6 +146,11 @@ class Store:
             return found.status, found
         lost = claim.exists() or path.with_suffix(CHECKPOINT).exists()
         return "interrupted" if lost else "missing", None
+
+
+def record_beside(claim: Path) -> Path:
+    """Where the record of a claim's run lies, or would."""
+    return claim.with_name(claim.name.removesuffix(CLAIM) + ".nc")
 
 
 def read_summary(path: Path, whole: bool = False) -> Summary | None:

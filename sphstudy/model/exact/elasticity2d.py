@@ -5,6 +5,7 @@ clamped corners. Every reference is computed on two meshes; the error estimate i
 bounds the error of the finer one.
 """
 
+import math
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -32,6 +33,10 @@ class Reference(NamedTuple):
     value: float
     error: float
 
+    def times(self, unit: float) -> "Reference":
+        """The same in another unit."""
+        return Reference(self.value * unit, self.error * unit)
+
 
 class BentPlate(NamedTuple):
     """Strain energy (J/m), angle of the end against the vertical (rad); centreline x, u_y (m)."""
@@ -42,7 +47,6 @@ class BentPlate(NamedTuple):
     u_y: np.ndarray
 
 
-@lru_cache
 def plate_frequencies(
     length: float, height: float, material: Material, insert: float = 0.0
 ) -> tuple[Reference, Reference]:
@@ -63,18 +67,43 @@ def plate_frequencies(
     tuple of Reference
         ω1 and ω2 (rad/s).
     """
-    meshes = _INSERT_MESHES if insert else _MESHES
-    coarse, fine = (_frequencies(length, height, material, n, insert) for n in meshes)
-    return _reference(coarse[0], fine[0]), _reference(coarse[1], fine[1])
+    unit = math.sqrt(material.youngs_modulus / material.density) / length
+    first, second = _unit_frequencies(_ratio(height, length), _of_unit(material), _ratio(insert, length))
+    return first.times(unit), second.times(unit)
 
 
 @lru_cache
+def _unit_frequencies(height: float, material: Material, insert: float) -> tuple[Reference, Reference]:
+    meshes = _INSERT_MESHES if insert else _MESHES
+    coarse, fine = (_frequencies(1.0, height, material, n, insert) for n in meshes)
+    return _reference(coarse[0], fine[0]), _reference(coarse[1], fine[1])
+
+
 def bent_plate(length: float, height: float, material: Material, deflection: float) -> BentPlate:
     """Statics of a plate clamped at x = 0, with u_y = deflection and u_x free on x = length; all in m."""
-    coarse, fine = (_bent(length, height, material, deflection, n) for n in _MESHES)
-    for shared in fine[2:]:
-        shared.flags.writeable = False
+    unit = _unit_bent_plate(_ratio(height, length), _of_unit(material), _ratio(deflection, length))
+    return BentPlate(
+        unit.strain_energy.times(material.youngs_modulus * length**2),
+        unit.end_angle,
+        length * unit.x,
+        length * unit.u_y,
+    )
+
+
+@lru_cache
+def _unit_bent_plate(height: float, material: Material, deflection: float) -> BentPlate:
+    coarse, fine = (_bent(1.0, height, material, deflection, n) for n in _MESHES)
     return BentPlate(_reference(coarse[0], fine[0]), _reference(coarse[1], fine[1]), fine[2], fine[3])
+
+
+# Plates that differ in size, stiffness and density alone have one reference, to the last bit: rounding of
+# the elements' matrices changes a frequency by some 1e-9 of itself.
+def _of_unit(material: Material) -> Material:
+    return material._replace(youngs_modulus=1.0, density=1.0)
+
+
+def _ratio(length: float, unit: float) -> float:
+    return float(f"{length / unit:.12g}")
 
 
 def _reference(coarse: float, fine: float) -> Reference:
@@ -108,11 +137,16 @@ def _first_moment(w):
     return w.x[1] * w["u"][0]
 
 
+def _near(x: np.ndarray, place: float, height: float) -> np.ndarray:
+    """Mask of the coordinates that are a place, but for rounding, whatever the size of the body."""
+    return np.abs(x - place) < 1e-9 * height
+
+
 def _held(basis: skfem.Basis, height: float, insert: float) -> np.ndarray:
     """Degrees of freedom that the clamp holds."""
     if not insert:
-        return basis.get_dofs(lambda x: np.isclose(x[0], 0.0)).all()
-    return basis.get_dofs(lambda x: np.isclose(np.abs(x[1]), 0.5 * height) & (x[0] < 0.0)).all()
+        return basis.get_dofs(lambda x: _near(x[0], 0.0, height)).all()
+    return basis.get_dofs(lambda x: _near(np.abs(x[1]), 0.5 * height, height) & (x[0] < 0.0)).all()
 
 
 def _frequencies(
@@ -137,19 +171,19 @@ def _bent(
 ) -> tuple[float, float, np.ndarray, np.ndarray]:
     basis = _basis(length, height, elements)
     stiffness = _stiffness(basis, material)
-    wall = basis.get_dofs(lambda x: np.isclose(x[0], 0.0)).all()
-    end = basis.get_dofs(lambda x: np.isclose(x[0], length)).all()
+    wall = basis.get_dofs(lambda x: _near(x[0], 0.0, height)).all()
+    end = basis.get_dofs(lambda x: _near(x[0], length, height)).all()
     # Degrees of freedom alternate: x and y displacement of one node after the other.
     driven = end[end % 2 == 1]
     u = basis.zeros()
     u[driven] = deflection
     u = skfem.solve(*skfem.condense(stiffness, x=u, D=np.concatenate((wall, driven))))
     # Integrals, not a fit to the nodes: these crowd at the faces and would weigh the warping there.
-    face = basis.boundary(basis.mesh.facets_satisfying(lambda x: np.isclose(x[0], length)))
+    face = basis.boundary(basis.mesh.facets_satisfying(lambda x: _near(x[0], length, height)))
     moment = _first_moment.assemble(face, u=face.interpolate(u))
     slope = moment / (height**3 / 12.0)
     upward = np.arange(1, u.size, 2)
-    middle = upward[np.abs(basis.doflocs[1, upward]) < 1e-9 * height]
+    middle = upward[_near(basis.doflocs[1, upward], 0.0, height)]
     middle = middle[np.argsort(basis.doflocs[0, middle])]
     energy = float(0.5 * u @ (stiffness @ u))
     return energy, float(-np.arctan(slope)), basis.doflocs[0, middle], u[middle]

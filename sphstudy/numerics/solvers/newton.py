@@ -12,6 +12,9 @@ from sphstudy.numerics.sph.total_lagrangian import Model
 SUFFICIENT = 1e-4
 """Share of the decrease that the slope promises which a step must keep (Armijo 1966)."""
 
+ROUGHEST = 1e-4
+"""Largest residual that may be left by the rounding of positions."""
+
 HALVINGS = 12
 """Of a Newton step, before the line search gives up."""
 
@@ -29,7 +32,8 @@ class Newton:
     """Equilibria of one model.
 
     A residual is the norm of the forces on free particles over that of the forces on all; equilibrium is
-    one of at most `tolerance`, found in at most `iterations` steps.
+    one of at most `tolerance`, found in at most `iterations` steps. Where the load is so small that the
+    rounding of positions makes larger forces, equilibrium is what leaves no more than these.
     """
 
     def __init__(self, model: Model, tolerance: float, iterations: int, effort: Effort):
@@ -60,13 +64,20 @@ class Newton:
         position[self._free] += step
         force = self._force(position)
         self._refuse_inverted()
+        before = np.inf
         for iteration in range(self.iterations + 1):
             residual = self._residual(force)
-            if residual <= self.tolerance:
+            stuck = residual > 0.5 * before and self._is_rounding(position, force)
+            if residual <= self.tolerance or (stuck and residual <= ROUGHEST):
                 self.effort.residual = max(self.effort.residual, residual)
                 return position
+            if stuck:
+                raise NotSolvable(
+                    f"rounding of positions leaves a residual of {residual:.1e}: the load is too small"
+                )
             if iteration == self.iterations:
                 break
+            before = residual
             if self.model.law.objective:
                 self._factors = None
             step = self._factors_of(self._tangent()).solve(force[self._free])
@@ -87,6 +98,13 @@ class Newton:
     def _residual(self, force: np.ndarray) -> float:
         total = float(np.linalg.norm(force))
         return float(np.linalg.norm(force[self._free])) / total if total else 0.0
+
+    def _is_rounding(self, position: np.ndarray, force: np.ndarray) -> bool:
+        """Whether the forces on free particles are no larger than those that the rounding of their
+        positions makes.
+        """
+        makes = np.finfo(float).eps * (abs(self._stiffness) @ abs(position))
+        return bool(np.linalg.norm(force[self._free]) <= np.linalg.norm(makes[self._free]))
 
     def _tangent(self) -> sparse.csc_array:
         """The tangent at the deformation gradients that the last force has left."""

@@ -46,6 +46,22 @@ def test_linear_equilibrium_is_that_of_dense_algebra():
     assert solution.snapshots[0].strain_energy == pytest.approx(0.5 * u @ dense @ u, rel=1e-11)
 
 
+@pytest.mark.parametrize("share", [1e-3, 1e-5])
+def test_a_small_load_has_its_equilibrium(share):
+    """A linear problem: the energy goes with the square of the load, as far as positions have digits."""
+    full = solved("scene=bending", "n=9", "h=1.3")[0]
+    small = solved("scene=bending", "n=9", "h=1.3", f"scene.deflection={-0.04 * share}")[0]
+    assert small.outcome == "done"
+    assert small.steps <= 2 * full.steps
+    assert energies(small)[-1] == pytest.approx(share**2 * energies(full)[-1], rel=1e-10 / share)
+
+
+def test_a_load_that_rounding_drowns_has_none():
+    solution, _, _ = solved("scene=bending", "n=9", "h=1.3", "scene.deflection=-4e-12")
+    assert solution.outcome == "diverged"
+    assert "rounding of positions" in solution.message
+
+
 @pytest.mark.parametrize("law", ["linear", "svk", "neohookean"])
 @pytest.mark.parametrize("scene", ["mode1", "bending"])
 def test_free_particles_are_at_rest_and_prescribed_ones_in_place(scene, law):

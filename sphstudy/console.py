@@ -1,5 +1,9 @@
 """The terminal, or what stands in its place where output goes to a file or a pipe."""
 
+import codecs
+import sys
+import unicodedata
+
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table as Grid
@@ -8,6 +12,36 @@ from sphstudy.table import Table
 
 LONGEST = 400
 """Rows of a list of runs that are printed; of more, only those that are not done."""
+
+
+_PLAIN = dict(zip("−–×·─│≤≥∞→", ("-", "-", "x", "*", "-", "|", "<=", ">=", "inf", "->"), strict=True))
+"""What is written for characters that a terminal does not have; others: see `_plain`."""
+
+
+def _plain(error: UnicodeError) -> tuple[str, int]:
+    """ASCII in place of characters that an encoding does not have, for `codecs.register_error`."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    return "".join(map(_spelled, error.object[error.start : error.end])), error.end
+
+
+def _spelled(character: str) -> str:
+    if character in _PLAIN:
+        return _PLAIN[character]
+    name = unicodedata.name(character, "")
+    if name.startswith("GREEK"):
+        return name.split()[-1].lower()
+    return unicodedata.normalize("NFKD", character).encode("ascii", "ignore").decode() or "?"
+
+
+codecs.register_error("sphstudy.plain", _plain)
+
+
+def write_what_the_terminal_has() -> None:
+    """Lets output and messages of this process go on where their encoding lacks a character."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="sphstudy.plain")
 
 
 def console() -> Console:

@@ -56,7 +56,9 @@ def main(arguments: list[str], version: str) -> int:
 def _answered(arguments: list[str], version: str) -> int:
     with on_interrupt(_leave_at_once):
         from sphstudy.commands.parser import help_text, parse
+        from sphstudy.console import write_what_the_terminal_has
         from sphstudy.errors import ConfigurationError
+    write_what_the_terminal_has()
     text = f"{version}\n" if "--version" in arguments else help_text(arguments)
     if text is not None:
         print(text, end="")

@@ -17,6 +17,7 @@ from sphstudy import catalogue
 from sphstudy.catalogue import method_module, scene_module, solver_module
 from sphstudy.commands.list import PLACES, about
 from sphstudy.commands.parser import Request
+from sphstudy.configuration.run_settings import RunConfig
 from sphstudy.console import print_table
 from sphstudy.errors import ConfigurationError, unknown
 from sphstudy.table import Column, Table
@@ -53,8 +54,11 @@ def _named(request: Request) -> tuple[str, str]:
 def _rows(group: str, settings: dict[str, Any]) -> Iterator[list[str]]:
     values = settings.get(group, settings)
     module = _MODULES[group](values[PLACES[group][0]])
-    if "n" in settings:
-        yield ["n", str(settings["n"]), "", (module.Parameters.__doc__ or "").strip()]
+    if group == "scene":
+        common = catalogue.read(catalogue.folder("conf") / "config.yaml") | settings
+        for key in ("h", "n"):
+            field = RunConfig.__pydantic_fields__[key]  # type: ignore[attr-defined]
+            yield [key, setting(common[key]), _allowed(field), field.description or ""]
     for key, field in module.Parameters.__pydantic_fields__.items():
         if key not in ("name", "kind"):
             value = values.get(key, field.default)

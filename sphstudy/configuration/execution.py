@@ -6,6 +6,12 @@ from typing import Any
 from sphstudy.errors import ConfigurationError
 from sphstudy.parameters import checked, count, number, parameters
 
+LONGEST = 1e9
+"""Seconds that a run may be given, thirty years: clocks of threads go to some 9e9."""
+
+MOST = 1e6
+"""Memory that a run may be given (GiB): limits of the system are 64 bits long."""
+
 
 @parameters
 class Execution:
@@ -13,8 +19,12 @@ class Execution:
 
     checkpoint: float = number("wall time between two checkpoints of a long run", "s", gt=0)
     threads: int = count("threads of one run", ge=1)
-    time_limit: float | None = number("wall time of a run, after which it ends as timeout", "s", gt=0)
-    memory_limit: float | None = number("memory of a run, beyond which it ends as failed", "GiB", gt=0)
+    time_limit: float | None = number(
+        "wall time of a run, after which it ends as timeout", "s", gt=0, le=LONGEST
+    )
+    memory_limit: float | None = number(
+        "memory of a run, beyond which it ends as failed", "GiB", gt=0, le=MOST
+    )
 
 
 GRACE = 120.0

@@ -97,6 +97,8 @@ WRONG = [
     (["checkpoint=0"], "checkpoint=0: should be greater than 0"),
     (["time_limit=-1"], "time_limit=-1: should be greater than 0"),
     (["memory_limit=x"], "memory_limit=x: should be a valid number"),
+    (["memory_limit=1e10"], "memory_limit=10000000000.0: should be less than or equal to 1000000"),
+    (["time_limit=1e10"], "time_limit=10000000000.0: should be less than or equal to 1000000000"),
     (["retry=often"], "unknown retry 'often'; there are none, failed, timeout, all"),
     (["scene.name=mine"], "scene.name=mine: the name is that of the file; scene=NAME chooses another"),
     (["known=1"], "known=1: unknown setting 'known'"),

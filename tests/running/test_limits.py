@@ -31,6 +31,20 @@ print(len(bytearray(GIBIBYTE // 2)) == GIBIBYTE // 2)
     assert said == ["True True", "refused", "True", "True"]
 
 
+def test_a_limit_that_the_process_has_reached_already_is_refused():
+    """In a library it would end the process, or be tried for ever."""
+    said = alone("""
+before = limits()
+for limit in (0.01, 0.05):
+    try:
+        with memory_limited(limit):
+            print("begun")
+    except MemoryError as error:
+        print(f"memory_limit={limit}" in str(error), limits() == before)
+""")
+    assert said == ["True True"] * 2
+
+
 def test_without_a_limit_nothing_is_limited():
     said = alone("""
 before = limits()

@@ -11,6 +11,12 @@ from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass as _dataclass
 
 T = TypeVar("T")
+LARGEST_COUNT = 10**9
+"""Of whatever is counted: particles along a side, steps. More are a slip of the pen."""
+
+LARGEST, SMALLEST = 1e50, 1e-50
+"""Sizes of real numbers, in their units: products of several are numbers still."""
+
 _STRICT = ConfigDict(extra="forbid", allow_inf_nan=False)
 
 
@@ -28,8 +34,8 @@ def number(meaning: str, unit: str = "1", **limits: float) -> Any:
 
 
 def count(meaning: str, **limits: int) -> Any:
-    """A field that takes a whole number; parameters as those of `number`."""
-    return Field(description=meaning, strict=True, **limits)  # type: ignore[call-overload]
+    """A field that takes a whole number, at most LARGEST_COUNT; parameters as those of `number`."""
+    return Field(description=meaning, strict=True, **{"le": LARGEST_COUNT} | limits)  # type: ignore[call-overload]
 
 
 def described(meaning: str) -> Any:
@@ -71,7 +77,13 @@ def checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
         The instance; None if there is a complaint.
     """
     try:
-        return adapter(cls).validate_python(values)
+        made = adapter(cls).validate_python(values)
+        complaints += [
+            f"{prefix}{name}={value:g}: should be 0, or {SMALLEST:g} to {LARGEST:g} in size"
+            for name, value in vars(made).items()
+            if isinstance(value, float) and value and not SMALLEST <= abs(value) <= LARGEST
+        ]
+        return made
     except ValidationError as error:
         for item in error.errors():
             key = prefix + ".".join(str(part) for part in item["loc"])
@@ -79,5 +91,12 @@ def checked(cls: type, values: Any, prefix: str, complaints: list[str]) -> Any:
             if item["type"] in ("unexpected_keyword_argument", "extra_forbidden"):
                 allowed = ", ".join(sorted(field.name for field in dataclasses.fields(cls)))
                 message = f"there is no such key (there are {allowed})"
-            complaints.append(f"{key}={item['input']}: {message}")
+            complaints.append(f"{key}={shown(item['input'])}: {message}")
         return None
+
+
+def shown(given: Any) -> str:
+    """What was given, as far as a message should repeat it: no control characters, no pages."""
+    text = str(given)
+    text = text if text.isprintable() else repr(text)
+    return text if len(text) <= 60 else f"{text[:60]}…"

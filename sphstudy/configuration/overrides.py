@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -52,7 +53,7 @@ class Grammar:
         found: list[Override] = []
         for argument in arguments:
             try:
-                override = self._parser.parse_override(argument)
+                override = self._parser.parse_override(_as_text(argument))
             except (HydraException, ValueError, RecursionError):
                 complaints.append(f"{_shortened(argument)}: not understood; write key=value")
                 continue
@@ -166,6 +167,16 @@ def rounded(values: Any) -> Any:
     if isinstance(values, list):
         return [rounded(value) for value in values]
     return float(f"{values:.12g}") if isinstance(values, float) else values
+
+
+def _as_text(argument: str) -> str:
+    """`results=FOLDER` with its folder in quotes: whatever its characters, it is text."""
+    key, _, folder = argument.partition("=")
+    if key != "results" or not folder or folder[0] in "'\"":
+        return argument
+    # In quotes, backslashes escape a quote behind them, and one another before one.
+    inner = re.sub(r"(\\*)('|$)", lambda found: 2 * found[1] + found[2].replace("'", "\\'"), folder)
+    return f"results='{inner}'"
 
 
 def _shortened(text: str) -> str:

@@ -33,7 +33,7 @@ class RunConfig:
     solve: Any = described("what is done with it")
     h: float = number("relative smoothing radius h̃ = h / ((Δx + Δy)/2)", gt=0)
     n: int = count("resolution: rows of a plate, particles along the side of a crack square", ge=1)
-    seed: int = count("seed of anything random in a scene", ge=0)
+    seed: int = count("seed of anything random in a scene", ge=0, le=2**63 - 1)
     record: Record = described("what is kept")
 
     def as_dict(self) -> dict[str, Any]:

@@ -1,7 +1,10 @@
 """From a named study to its points, block by block."""
 
+import math
+
 from sphstudy.configuration import study_file
 from sphstudy.configuration.composition import Point, Session
+from sphstudy.configuration.overrides import MOST_POINTS
 from sphstudy.errors import ConfigurationError
 
 
@@ -38,7 +41,14 @@ class StudyPoints:
         self.skipped: list[str] = []
         self.folder = ""
         skipped = self.skipped if definition.skip_invalid else None
-        for block, sweeps in study_file.grids(definition, overrides).items():
+        grids = study_file.grids(definition, overrides)
+        # Before any is composed: a million take minutes.
+        spanned = sum(math.prod(1 + o.count(",") for o in sweep) for s in grids.values() for sweep in s)
+        if spanned > MOST_POINTS:
+            raise ConfigurationError(
+                [f"study {name}: about {spanned:,} points, a study has at most {MOST_POINTS:,}"]
+            )
+        for block, sweeps in grids.items():
             points: dict[str, Point] = {}
             for sweep in sweeps:
                 found, self.folder = hydra.points(sweep, sweep=True, skipped=skipped)

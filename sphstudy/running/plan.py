@@ -19,6 +19,9 @@ TRIED_AGAIN = {
 }
 """Which outcomes each `retry` tries again."""
 
+LONGEST_FORECAST = 30 * 24 * 3600.0
+"""CPU time (s) that a run may be predicted to take without a limit of its own."""
+
 
 @dataclass(frozen=True)
 class Planned:
@@ -52,6 +55,11 @@ def plan(points: list[Point], store: Store, force: bool = False) -> list[Planned
             complaints += wrong
             known = known or rates(store)
             seconds, memory = 0.0 if wrong else known.seconds(point.config, work), _memory(point)
+            if seconds > LONGEST_FORECAST and point.execution.time_limit is None:
+                complaints.append(
+                    f"{point.config.label}: would take about {duration(seconds, 2)} of CPU time; if that "
+                    "is meant, say how long it may: time_limit=SECONDS"
+                )
         found.append(Planned(point, status, stored, seconds, memory, runs, reason))
     if complaints:
         raise ConfigurationError(complaints)

@@ -1,4 +1,4 @@
-"""Composition in company: in threads, within another program's Hydra, with values that are equal."""
+"""Composition in company: in threads, in another program's Hydra, with equal values and odd folders."""
 
 from concurrent.futures import ThreadPoolExecutor
 
@@ -44,3 +44,28 @@ def test_equal_values_are_one(swept, count, capsys):
     left_out = len(swept.split(",")) - count
     said = capsys.readouterr().err
     assert (f"{left_out} point" in said) == (left_out > 0)
+
+
+@pytest.mark.parametrize(
+    "folder",
+    [
+        "jürgen/x",
+        "a b",
+        "a,b",
+        "a=b",
+        "[x]",
+        "{x}",
+        "#x",
+        "it's",
+        "end\\",
+        "a\\'b",
+        "null",
+        "1.5",
+        "a\nb",
+        "*",
+    ],
+)
+def test_any_folder_takes_results(folder):
+    with session() as hydra:
+        arguments = ["scene=plate", "method=tl", "n=5", "h=1.3", f"results={folder}"]
+        assert hydra.points(arguments, sweep=False)[1] == folder

@@ -1,6 +1,7 @@
 """Study files: blocks, inclusion, and what is refused."""
 
 import pytest
+import yaml
 
 from sphstudy import catalogue
 from sphstudy.__main__ import main
@@ -93,3 +94,10 @@ def test_wrong_files_are_refused_with_a_reason(folder, text, complaint):
     (folder / "bad.yaml").write_text(text)
     with session() as hydra, pytest.raises(ConfigurationError, match=complaint):
         all_points(hydra, "bad", [])
+
+
+def test_a_million_points_are_refused_before_any_is_composed(folder):
+    lists = {key: list(range(10)) for key in ("seed", "scene.rho", "scene.E", "n", "scene.L", "h")}
+    (folder / "tiny.yaml").write_text(yaml.safe_dump({"title": "huge", "blocks": {"all": lists}}))
+    with session() as hydra, pytest.raises(ConfigurationError, match="1,000,000 points"):
+        all_points(hydra, "tiny", [])

@@ -4,6 +4,7 @@ import itertools
 
 import pytest
 
+from sphstudy.errors import ConfigurationError
 from sphstudy.running.one_run import give_up
 from sphstudy.running.plan import _decision, kept, plan
 from sphstudy.store.store import Store
@@ -34,3 +35,11 @@ def test_failed_points_that_are_kept_are_said(tmp_path):
     assert kept(plan([one, other], store)) == (
         "1 failed (retry=failed runs them again), 1 timeout (retry=timeout runs them again)"
     )
+
+
+def test_a_run_of_years_needs_a_limit_that_says_so(tmp_path):
+    settings = ("n=5", "solve.courant=1e-14")
+    with pytest.raises(ConfigurationError, match="would take about .* h of CPU time"):
+        plan(points(*settings), Store(tmp_path))
+    (planned,) = plan(points(*settings, "time_limit=60"), Store(tmp_path))
+    assert planned.runs

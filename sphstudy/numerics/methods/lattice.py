@@ -31,6 +31,9 @@ def _inside(radius: float) -> int:
 
 def check(config) -> Iterator[str]:
     """Complaints about h and n."""
+    if support(config) >= config.n:
+        yield f"h={config.h:g}: the support is wider than the body's {config.n} rows"
+        return
     found = lattice_neighbours(config)
     if found < FEWEST_NEIGHBOURS:
         least = math.sqrt(2) * config.h / support(config)
@@ -38,5 +41,3 @@ def check(config) -> Iterator[str]:
             f"h={config.h:g}: too few neighbours for this method ({found}, at least "
             f"{FEWEST_NEIGHBOURS} needed: h > {least:.4g})"
         )
-    if support(config) >= config.n:
-        yield f"h={config.h:g}: the support is wider than the body's {config.n} rows"

@@ -62,10 +62,10 @@ def folder(tmp_path, monkeypatch):
     expected[store.log_path(lost.config).name] = "a log of a run without a record"
     expected[store.checkpoint_path(lost.config).name] = "a checkpoint that nobody"
 
-    (store.runs / "x-0.nc").write_text("no record")
-    expected["x-0.unreadable"] = "set aside"
-    (store.runs / "y-0.unreadable").mkdir()
-    expected["y-0.unreadable"] = "set aside"
+    (store.runs / "x-0000000000000000.nc").write_text("no record")
+    expected["x-0000000000000000.unreadable"] = "set aside"
+    (store.runs / "y-0000000000000000.unreadable").mkdir()
+    expected["y-0000000000000000.unreadable"] = "set aside"
     (store.runs / ".writing-1.nc").touch()
     expected[".writing-1.nc"] = None
     return store, expected
@@ -112,7 +112,7 @@ def test_wrong_arguments_are_answered(arguments, tmp_path, monkeypatch, capsys):
 
 def test_a_record_of_changed_code_is_stale_and_what_is_in_use_is_not(folder, monkeypatch, capsys):
     store, _ = folder
-    shutil.rmtree(store.runs / "y-0.unreadable")
+    shutil.rmtree(store.runs / "y-0000000000000000.unreadable")
     monkeypatch.setattr(identity, "numerics_version", lambda config: "newer")
     monkeypatch.setattr(one_run.identity, "numerics_version", lambda config: "newer")
     main(["prune", "--yes"])

@@ -14,7 +14,7 @@ ASCII = {
     "PYTHONIOENCODING": "",
 }
 
-SWEEP = "-m scene=plate method=tl n=5,7 h=1.3 scene.periods=0.02"
+SWEEP = "-m scene=plate method=tl n=5 h=1.3 scene.periods=0.02"
 
 
 @pytest.mark.parametrize(
@@ -28,7 +28,7 @@ def test_a_command_works_in_ascii(line, tmp_path):
     assert done.returncode == 0, said
     assert "Traceback" not in said
     if line == SWEEP:
-        assert len(list((tmp_path / "results" / "runs").glob("*.nc"))) == 2
+        assert len(list((tmp_path / "results" / "runs").glob("*.nc"))) == 1
 
 
 def test_what_a_terminal_lacks_is_spelled():

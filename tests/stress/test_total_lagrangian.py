@@ -6,6 +6,8 @@ import pytest
 import sphstudy
 from sphstudy.analysis.extrapolation import extrapolated
 
+pytestmark = pytest.mark.slow
+
 CRACK = {"method": "tl", "solve": "equilibrium", "h": 1.3, "n": [40, 60]}
 
 

@@ -56,6 +56,7 @@ def test_pairs_are_counted_as_they_interact(square):
     assert interacting_pairs(problem, config) == (np.count_nonzero(within) - within.shape[0]) // 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["thesis", "tl"])
 def test_a_term_switched_off_makes_the_model_that_never_had_it(hydra, method):
     """The types of its fields are what compiled code is specialised by."""

@@ -105,6 +105,7 @@ def internal_force(rng, positions, threads):
 
 
 @pytest.mark.compiled
+@pytest.mark.slow
 @every_body
 def test_two_threads_change_no_bit(body):
     if numba.config.NUMBA_NUM_THREADS > 1:

@@ -39,7 +39,7 @@ def test_failed_points_that_are_kept_are_said(tmp_path):
 
 def test_a_run_of_years_needs_a_limit_that_says_so(tmp_path):
     settings = ("n=5", "solve.courant=1e-14")
-    with pytest.raises(ConfigurationError, match="would take about .* h of CPU time"):
+    with pytest.raises(ConfigurationError, match=r"would take about .* h of CPU time"):
         plan(points(*settings), Store(tmp_path))
     (planned,) = plan(points(*settings, "time_limit=60"), Store(tmp_path))
     assert planned.runs

@@ -2,11 +2,13 @@
 
 from collections.abc import Callable
 
+from sphstudy.numerics.solvers.growth import narrowed
+
 STEP = 1.25
 """Factor between trials while the limit is not enclosed."""
 
-RESOLUTION = 1.02
-"""The limit is known when the unsound C is no larger than this many sound ones."""
+RESOLUTION = 0.02
+"""The limit is known when the unsound C is larger than a sound one by no more than this share of it."""
 
 RANGE = (0.02, 20.0)
 """C outside of which no limit is looked for."""
@@ -30,10 +32,4 @@ def stability_limit(is_stable: Callable[[float], bool], guess: float) -> float:
             stable, trial = trial, trial * STEP
         else:
             unstable, trial = trial, trial / STEP
-    while unstable > stable * RESOLUTION:
-        trial = (stable * unstable) ** 0.5
-        if is_stable(trial):
-            stable = trial
-        else:
-            unstable = trial
-    return stable
+    return narrowed(is_stable, stable, unstable, RESOLUTION)[0]

@@ -137,10 +137,28 @@ def bisect(
         return Bracket(highest, np.nan, trials, steps)
     if unstable(lowest):
         return Bracket(np.nan, lowest, trials, steps)
-    while highest > (1.0 + tolerance) * lowest:
-        middle = float(np.sqrt(lowest * highest))
-        if unstable(middle):
-            highest = middle
-        else:
-            lowest = middle
+    lowest, highest = narrowed(lambda courant: not unstable(courant), lowest, highest, tolerance)
     return Bracket(lowest, highest, trials, steps)
+
+
+def narrowed(
+    is_stable: Callable[[float], bool], stable: float, unstable: float, tolerance: float
+) -> tuple[float, float]:
+    """A stable and an unstable time step closer to each other: their ratio within 1 + `tolerance`.
+
+    Parameters
+    ----------
+    is_stable : callable
+        Whether a time step is stable; called for steps between the two.
+    stable, unstable : float
+        Time steps in any unit, the stable one shorter.
+    tolerance : float
+        Of the ratio.
+    """
+    while unstable > (1.0 + tolerance) * stable:
+        middle = float(np.sqrt(stable * unstable))
+        if is_stable(middle):
+            stable = middle
+        else:
+            unstable = middle
+    return stable, unstable

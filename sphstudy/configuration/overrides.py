@@ -53,6 +53,8 @@ class Grammar:
         found: list[Override] = []
         for argument in arguments:
             try:
+                if "\0" in argument:
+                    raise ValueError("no file has such a name")
                 override = self._parser.parse_override(_as_text(argument))
             except (HydraException, ValueError, RecursionError):
                 complaints.append(f"{_shortened(argument)}: not understood; write key=value")

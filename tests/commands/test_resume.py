@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from sphstudy.store.checksum import seal
+
 pytestmark = pytest.mark.slow
 
 COMMAND = [sys.executable, "-m", "sphstudy", "scene=plate", "n=15", "h=1.5", "scene.periods=0.4"]
@@ -45,6 +47,7 @@ def test_a_killed_run_goes_on_and_is_the_uninterrupted_one(tmp_path):
     kept["spent"] = np.array([1000.0, 1000.0])
     with open(found[0], "wb") as file:
         np.savez(file, **kept)
+    seal(found[0], "")
 
     subprocess.run([*COMMAND, "checkpoint=0.5"], cwd=killed, check=True, capture_output=True, timeout=300)
     expected, resumed = record(whole), record(killed)
